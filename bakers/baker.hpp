@@ -1,0 +1,76 @@
+#pragma once
+// The contract between a baker and the rest of the house: pure functions from memory to memory.
+//
+// A baker is three functions over its own Params struct:
+//   reads(params)                              what it will read, before it runs
+//   bake(params, inputs, context)  -> Product
+//   certify(params, inputs, product, context) -> Certificate, of the product as it will be written (quantised)
+// and `check(params)`, which finds what a schema can't say. registry.cpp lists them.
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bakers/context.hpp"
+#include "bakers/error.hpp"
+#include "bakers/image.hpp"
+
+namespace pbrbake {
+
+/// A JSON value in memory. Only job, parse and run turn it from or into text.
+using Json = nlohmann::ordered_json;
+
+/// A file a bake will read: the Params field that names it, and how to decode it.
+struct Read {
+    std::string field;                   ///< "source": the key in Inputs, and the JSON pointer's last part
+    std::string path;                    ///< as in the job, or "builtin:NAME"
+    std::string colour_space = "auto";   ///< of the file
+};
+
+/// Decoded and colour-managed sources, by Params field.
+using Inputs = std::map<std::string, SourceImage>;
+
+/// How a certified figure was had.
+enum class Evidence {
+    exact,     ///< equal by construction
+    bound,     ///< proven not to be exceeded
+    measured,  ///< computed over all of the product
+    estimate,  ///< sampled; `interval` holds its 95 % confidence interval
+};
+
+/// One figure of a certificate.
+struct Figure {
+    std::string metric;  ///< "max_abs_error", "relative_rmse", "energy_error", …
+    double value = 0;
+    Evidence evidence = Evidence::measured;
+    std::string method;  ///< how, in words
+    std::optional<std::pair<double, double>> interval;
+    std::optional<int> level;
+};
+
+/// What is known of a product's error, and the work done for the bake. Deterministic: no times.
+struct Certificate {
+    std::vector<Figure> figures;
+    /// The figure a stated max_error is held against (the worst level's, say).
+    std::optional<Figure> headline;
+};
+
+/// What a bake makes: images and the properties that go into its manifest entry.
+struct Product {
+    std::vector<Image> images;  ///< images[0] is written to X.ext; images[i] to X_<name>.ext
+    std::string units = "relative";
+    double scale = 1;   ///< stored value = scale * value; run sets it when the pixel format is too narrow
+    Json properties;    ///< "levels": […] of a probe, "columns": […] of a table
+};
+
+/// A mistake in a job, at a JSON pointer relative to the bake.
+struct Mistake {
+    std::string pointer;  ///< "/levels"
+    std::string message;
+};
+
+}  // namespace pbrbake

@@ -1,0 +1,62 @@
+#pragma once
+// Images in memory: what io decodes, bakers make, and io encodes.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pbrbake {
+
+/// How a channel is stored in a file. In memory every channel is float.
+enum class PixelType { half, float32, unorm16, unorm8 };
+
+/// One mip level: `faces` pictures of height x width texels, channels interleaved, row 0 at the top.
+/// texels.size() == faces * height * width * channels; the face index runs slowest.
+struct Level {
+    int width = 0;
+    int height = 0;
+    std::vector<float> texels;
+};
+
+/// A 2D picture (faces == 1) or a cube map (faces == 6), with one or more mip levels, level 0 the largest.
+///
+/// Cube maps use the project's own orientation: right-handed, y up, faces in the order +X -X +Y -Y +Z -Z, each as
+/// OpenGL samples it (texel (0,0) is at s = t = 0; see libpbr's ibl/cubemap.hpp). Other orientations exist only
+/// inside a codec.
+struct Image {
+    std::string name;                   ///< "" for a product's only image
+    std::vector<std::string> channels;  ///< EXR channel names, in memory order: {"R","G","B"}
+    int faces = 1;
+    std::vector<Level> levels;
+
+    int channel_count() const { return static_cast<int>(channels.size()); }
+    const float* texel(int level, int face, int y, int x) const {
+        const Level& l = levels[static_cast<std::size_t>(level)];
+        return l.texels.data() +
+               ((static_cast<std::size_t>(face) * l.height + y) * l.width + x) * channels.size();
+    }
+    float* texel(int level, int face, int y, int x) {
+        return const_cast<float*>(static_cast<const Image*>(this)->texel(level, face, y, x));
+    }
+};
+
+/// Texels changed while reading, because light is neither negative nor infinite.
+/// The rule: NaN, -Inf and negative channels become 0; +Inf becomes the largest finite value of its channel in the image.
+struct Repairs {
+    std::uint64_t non_finite = 0;  ///< texels with a NaN or Inf in any channel
+    std::uint64_t negative = 0;    ///< texels with a negative channel
+    double lowest = 0;             ///< the lowest finite value found, 0 if none was negative
+};
+
+/// A decoded source: linear light, in the working space that was asked for, repaired.
+struct SourceImage {
+    Image image;              ///< channels R G B; faces 6 for a cube map, 1 for an equirect or a texture
+    std::string colour_space; ///< of the file: stated by the job, else told by the file, else assumed
+    bool colour_space_assumed = false;
+    std::string units = "relative";  ///< "cd/m^2" only where the source says so
+    Repairs repairs;
+    std::string hash;  ///< XXH3-128 of the file's bytes, 32 hex digits
+};
+
+}  // namespace pbrbake

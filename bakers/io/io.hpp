@@ -1,0 +1,70 @@
+#pragma once
+// Files to images and back: the only door to OpenImageIO, OpenEXR, OpenColorIO and the container formats.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bakers/error.hpp"
+#include "bakers/image.hpp"
+
+namespace pbrbake::io {
+
+/// What a file may claim before memory is taken for it.
+struct ReadLimits {
+    int max_side = 65536;
+    std::uint64_t max_decoded_bytes = std::uint64_t{4} << 30;
+};
+
+struct ReadRequest {
+    std::filesystem::path path;
+    std::string colour_space = "auto";         ///< of the file; "auto": what the file tells, else by its type
+    std::string working_space = "lin_rec709";  ///< of the result: lin_rec709 | acescg
+    ReadLimits limits;
+};
+
+/// Reads an equirect (HDR, EXR, PNG, TIFF, TGA, JPEG) or a cube map (EXR with an envmap attribute), linear, in the
+/// working space, repaired (see Repairs). Grey is spread to RGB, alpha is dropped.
+/// Throws Error(unreadable_input) naming the file for: absent, unknown, truncated, lying or oversized files.
+SourceImage read_source(const ReadRequest& request);
+
+/// Colour spaces that `colour_space` may name, "auto" first.
+const std::vector<std::string>& colour_spaces();
+
+/// What goes into a container besides the texels.
+struct FileInfo {
+    PixelType pixel = PixelType::half;
+    std::map<std::string, std::string> metadata;  ///< "pbrbake:scale" -> "0.5"; strings, sorted
+};
+
+/// A whole file in memory. `format` is "exr" or "ktx2". Throws Error(unwritable_output) for what a format can't hold.
+/// Bytes depend on nothing but the arguments. Texels must already be representable in `info.pixel` (see quantise).
+std::vector<std::byte> encode(std::string_view format, const Image& image, const FileInfo& info);
+
+/// Formats encode() writes.
+const std::vector<std::string>& output_formats();
+
+/// Rounds every texel to what `pixel` can store, after multiplying by a power of two chosen so that nothing overflows;
+/// returns that scale (1 unless the peak exceeds the format). NaN stays NaN; the caller has a bug then.
+double quantise(std::vector<Image>& images, PixelType pixel);
+
+/// A product read back: our own EXR and KTX2 files (all faces and levels), and plain 2D EXR.
+struct ReadBack {
+    Image image;
+    FileInfo info;
+    std::string format;
+};
+ReadBack read_product(const std::filesystem::path& path);
+
+/// An 8-bit sRGB PNG in memory, for report pages. `rgb` holds width * height * 3 display-encoded bytes.
+std::vector<std::byte> encode_png8(int width, int height, const std::vector<std::uint8_t>& rgb);
+
+/// XXH3-128 of a file's bytes as 32 hex digits, and of a buffer. Throws unreadable_input.
+std::string hash_file(const std::filesystem::path& path);
+std::string hash_bytes(const std::byte* data, std::size_t size);
+
+}  // namespace pbrbake::io

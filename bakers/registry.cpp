@@ -1,0 +1,45 @@
+#include "bakers/registry.hpp"
+
+#include <array>
+
+#include "bakers/dfg/dfg.hpp"
+#include "bakers/params.hpp"
+#include "bakers/probe/probe.hpp"
+
+namespace pbrbake {
+namespace {
+
+template <class Params>
+Baker make_baker(std::string_view kind, int algorithm_version, std::vector<Mistake> (*check)(const Params&),
+                 std::vector<Read> (*reads)(const Params&), Product (*bake)(const Params&, const Inputs&, Context&),
+                 Certificate (*certify)(const Params&, const Inputs&, const Product&, Context&)) {
+    return {kind,
+            algorithm_version,
+            field_names<Params>(),
+            [=](const Json& json) { return check(read_params<Params>(json)); },
+            [=](const Json& json) { return reads(read_params<Params>(json)); },
+            [=](const Json& json, const Inputs& inputs, Context& context) {
+                return bake(read_params<Params>(json), inputs, context);
+            },
+            [=](const Json& json, const Inputs& inputs, const Product& product, Context& context) {
+                return certify(read_params<Params>(json), inputs, product, context);
+            }};
+}
+
+}  // namespace
+
+std::span<const Baker> bakers() {
+    static const std::array list{
+        make_baker("dfg", dfg::kAlgorithmVersion, dfg::check, dfg::reads, dfg::bake, dfg::certify),
+        make_baker("probe", probe::kAlgorithmVersion, probe::check, probe::reads, probe::bake, probe::certify),
+    };
+    return list;
+}
+
+const Baker* find_baker(std::string_view kind) {
+    for (const Baker& baker : bakers())
+        if (baker.kind == kind) return &baker;
+    return nullptr;
+}
+
+}  // namespace pbrbake

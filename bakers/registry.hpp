@@ -1,0 +1,32 @@
+#pragma once
+// The bakers there are.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bakers/baker.hpp"
+
+namespace pbrbake {
+
+/// One baker behind a face that knows no Params type. `bake` (the first argument of each) is a validated JSON bake
+/// with its defaults filled in.
+struct Baker {
+    std::string_view kind;
+    int algorithm_version;            ///< raised when the same job would give other bytes; part of the manifest
+    std::vector<std::string> fields;  ///< schema properties its Params reads, besides the common ones
+    std::function<std::vector<Mistake>(const Json& bake)> check;
+    std::function<std::vector<Read>(const Json& bake)> reads;
+    std::function<Product(const Json& bake, const Inputs&, Context&)> run;
+    std::function<Certificate(const Json& bake, const Inputs&, const Product&, Context&)> certify;
+};
+
+/// All bakers, in the order of their help texts.
+std::span<const Baker> bakers();
+
+/// The baker of a kind, or null.
+const Baker* find_baker(std::string_view kind);
+
+}  // namespace pbrbake
