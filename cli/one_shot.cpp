@@ -1,20 +1,9 @@
 // pbrbake dfg, pbrbake probe, …: one bake from flags. The flags are the job schema's properties.
 
-#include <cctype>
-
 #include "bakers/job/flags.hpp"
 #include "cli/execute.hpp"
 
 namespace pbrbake::cli {
-namespace {
-
-std::string upper_case(std::string text) {
-    for (char& letter : text) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-    return text;
-}
-
-}  // namespace
-
 ExitCode one_shot_command(const std::string& kind, const Arguments& arguments) {
     std::vector<Option> required;
     OptionGroup bake{"the bake",
@@ -22,7 +11,7 @@ ExitCode one_shot_command(const std::string& kind, const Arguments& arguments) {
     std::string usage = "[OPTIONS] ";
     for (const job::Flag& flag : job::flags_of(kind))
         if (flag.is_required) {
-            required.push_back({flag.name, upper_case(flag.name), flag.help});
+            required.push_back({flag.name, flag.place, flag.help});
             usage += required.back().value + " ";
         } else {
             bake.options.push_back({flag.name, flag.value, flag.help, flag.is_switch});

@@ -1,6 +1,7 @@
 #include "bakers/job/flags.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -47,7 +48,7 @@ std::string placeholder(const Json& reference) {
     }
     if (is_type(node, "array")) {
         const std::string item = placeholder(node["items"]);
-        return node.value("maxItems", 0) == 2 ? item + "," + item : item + ",…";
+        return node.value("maxItems", 0) == 2 ? item + "," + item : item + ",...";
     }
     if (is_type(node, "object")) return placeholder(node["properties"].front());
     return is_type(node, "integer")   ? "N"
@@ -65,11 +66,17 @@ std::string flag_text(const Json& value) {
     return joined(elements, ",");
 }
 
+std::string upper_case(std::string text) {
+    for (char& letter : text) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    return text;
+}
+
 Flag make_flag(const std::string& property_name, const Json& property, std::string pointer) {
     const Schema& schema = job_schema();
     Flag flag;
     flag.name = property_name;
     std::replace(flag.name.begin(), flag.name.end(), '_', '-');
+    flag.place = "--" + flag.name;
     flag.pointer = std::move(pointer);
     flag.value = placeholder(property);
     flag.is_switch = is_type(schema.resolve(property), "boolean");
@@ -187,9 +194,11 @@ std::vector<Flag> flags_of(std::string_view kind) {
     std::vector<Flag> flags;
     for (const auto& [name, property] : bake["properties"].items()) {
         if (name == "kind" || name == "name") continue;
-        flags.push_back(make_flag(name, property, std::string(kBakePointer) + name));
-        const Json& required = bake["required"];
-        flags.back().is_required = std::find(required.begin(), required.end(), name) != required.end();
+        Flag flag = make_flag(name, property, std::string(kBakePointer) + name);
+        flag.is_required =
+            std::find(bake["required"].begin(), bake["required"].end(), name) != bake["required"].end();
+        if (flag.is_required) flag.place = upper_case(flag.name);
+        flags.push_back(std::move(flag));
     }
     flags.push_back(make_flag("working_space", around["working_space"], "/working_space"));
     for (const auto& [name, property] : around["limits"]["properties"].items())
@@ -213,7 +222,7 @@ Job from_flags(std::string_view kind, std::span<const FlagText> texts, const std
     settle_format(document["bakes"][0], output);
 
     OneShot command{output, {{"/bakes/0/name", "-o"}, {"/limits", "--max-side"}}};
-    for (const Flag& flag : flags) command.places.emplace_back(flag.pointer, "--" + flag.name);
+    for (const Flag& flag : flags) command.places.emplace_back(flag.pointer, flag.place);
     return from_document(std::move(document), command);
 }
 

@@ -15,10 +15,11 @@ namespace pbrbake::job {
 struct Flag {
     std::string name;          ///< "roughness-axis"
     std::string pointer;       ///< of the property in a job: "/bakes/0/roughness_axis"
+    std::string place;         ///< how messages name it: "--roughness-axis", or "SOURCE" if it is required
     std::string value;         ///< what stands for its value in a help text: "perceptual|alpha", "N", "N,N"
     std::string help;          ///< the property's description, then what is allowed and the default
     bool is_switch = false;    ///< may be given without a value, which means true
-    bool is_required = false;  ///< is asked for as a positional argument too
+    bool is_required = false;  ///< is given as a positional argument
 };
 
 /// The flags of a kind of bake: the kind's properties in the schema's order, then those of the job around it.

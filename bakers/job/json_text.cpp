@@ -24,7 +24,8 @@ class StrictReading {
             case Event::array_start:
                 step();
                 if (depth >= kDeepestNesting)
-                    refuse("nested deeper than " + std::to_string(kDeepestNesting) + " levels");
+                    throw Error(ExitCode::invalid_job, file_,
+                                "nested deeper than " + std::to_string(kDeepestNesting) + " levels");
                 open_.push_back({});
                 open_.back().is_array = event == Event::array_start;
                 break;
@@ -35,7 +36,8 @@ class StrictReading {
             case Event::key:
                 open_.back().key = parsed.get<std::string>();
                 if (!open_.back().keys.insert(open_.back().key).second)
-                    refuse("key given twice; keep one of them");
+                    throw Error(ExitCode::invalid_job, file_ + "#" + here(),
+                                "key given twice; keep one of them");
                 break;
             case Event::value:
                 step();
@@ -56,14 +58,14 @@ class StrictReading {
         if (!open_.empty()) ++open_.back().elements;
     }
 
-    [[noreturn]] void refuse(const std::string& message) const {
+    std::string here() const {
         Json::json_pointer pointer;
         for (const Open& open : open_)
             if (open.is_array)
                 pointer /= open.elements - 1;
             else
                 pointer /= open.key;
-        throw Error(ExitCode::invalid_job, file_ + "#" + pointer.to_string(), message);
+        return pointer.to_string();
     }
 
     const std::string& file_;
@@ -80,14 +82,12 @@ std::string position(const std::string& file, std::string_view text, std::size_t
     return file + ":" + std::to_string(line) + ":" + std::to_string(column);
 }
 
-/// nlohmann's message without its own prefix and position: "unexpected ']'; expected …".
+/// nlohmann's message without its own prefix and position: "while parsing value - unexpected ']'; expected
+/// …".
 std::string reason(std::string_view what) {
-    for (const std::string_view prefix : {"syntax error ", "parse error "})
-        if (const std::size_t at = what.rfind(prefix); at != std::string_view::npos) {
-            const std::size_t colon = what.find(": ", at);
-            if (prefix[0] == 's') return std::string(what.substr(at + prefix.size()));
-            if (colon != std::string_view::npos) return std::string(what.substr(colon + 2));
-        }
+    for (const std::string_view prefix : {"] ", "syntax error "})
+        if (const std::size_t at = what.find(prefix); at != std::string_view::npos)
+            what.remove_prefix(at + prefix.size());
     return std::string(what);
 }
 

@@ -14,6 +14,8 @@ namespace pbrbake::job {
 namespace {
 
 std::string number_text(const Json& number) {
+    constexpr std::int64_t kLargestExact = (std::int64_t{1} << 53) - 1;  // that every JSON library holds
+    if (number == kLargestExact) return "2^53 - 1";
     std::ostringstream stream;
     stream.imbue(std::locale::classic());
     if (number.is_number_float())
@@ -147,14 +149,15 @@ std::string Schema::describe(const Json& reference) const {
     if (has_type(node, "number")) return describe_range(node, "number");
     if (has_type(node, "boolean")) return "true, false";
     if (has_type(node, "array")) return describe_array(node);
-    if (has_type(node, "string"))
-        return node.contains("pattern") ? "string: " + node.value("description", "") : "string, not empty";
+    if (has_type(node, "string")) {
+        const Json* description = keyword(reference, "description");
+        return description ? "a string (" + description->get<std::string>() + ")" : "a string, not empty";
+    }
     if (has_type(node, "object")) {
-        std::vector<std::string> members;
-        for (const auto& [key, property] : node["properties"].items())
-            members.push_back("\"" + key +
-                              "\": " + (node["properties"].size() < 4 ? describe(property) : "…"));
-        return "{" + joined(members) + "}";
+        std::vector<std::string> required;
+        if (node.contains("required"))
+            for (const Json& key : node["required"]) required.push_back(to_line(key));
+        return required.empty() ? "an object" : "an object with " + joined(required);
     }
     return "see the schema";
 }
@@ -180,11 +183,15 @@ void Schema::explain(const Json& value, const Json& reference, const std::string
     if (accepts(value, reference)) return;
     const Json& node = resolve(reference);
     const std::size_t before = out.size();
+    if ((has_type(node, "object") && !value.is_object()) || (has_type(node, "array") && !value.is_array())) {
+        add(out, at, refusal(value, node));
+        return;
+    }
     if (node.contains("anyOf")) {
         if (const Json* branch = branch_for(*this, value, node["anyOf"])) explain(value, *branch, at, out);
-    } else if (has_type(node, "object") && value.is_object()) {
+    } else if (has_type(node, "object")) {
         explain_object(value, node, at, out);
-    } else if (has_type(node, "array") && value.is_array() && node.contains("items")) {
+    } else if (has_type(node, "array") && node.contains("items")) {
         for (std::size_t i = 0; i < value.size(); ++i)
             explain(value[i], node["items"], step(at, std::to_string(i)), out);
     }
