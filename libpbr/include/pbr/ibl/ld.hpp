@@ -1,0 +1,79 @@
+#pragma once
+// The LD term of the split sum: radiance prefiltered by the GGX lobe at N = V = R (see ibl/zonal_kernel.hpp), for the
+// texels of a cube map level. One integral, three estimators:
+//
+//   LdEstimator::exact                         the sum over every texel of the source
+//   LdEstimator::importance_sampling           the mean of samples with the density of the lobe
+//   LdEstimator::filtered_importance_sampling  the same on a mip pyramid, each sample as wide as its share of the lobe
+//                                              (Krivanek & Colbert 2008, "Real-time shading with filtered importance
+//                                              sampling"; GPU Gems 3, ch. 20)
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "pbr/ibl/environment.hpp"
+#include "pbr/ibl/patches.hpp"
+
+namespace pbr {
+
+enum class LdEstimator { importance_sampling, filtered_importance_sampling, exact };
+
+/// A cube map with its mip chain down to 1 x 1, laid out for filtered lookups: RGBA floats, each face with a border of
+/// one texel copied from its neighbours (at corners the mean of the three that meet), so that no lookup branches at an edge.
+class CubePyramid {
+  public:
+    /// From faces of a power-of-two size. Levels are means weighted by solid angle, so that each holds the same flux.
+    CubePyramid(std::span<const float> rgb, int size);
+
+    int size() const { return size_; }
+    int levels() const { return static_cast<int>(offsets_.size()); }
+    /// Padded face: rows of (size_of(level) + 2) RGBA texels.
+    const float* face(int level, int face) const;
+    int size_of(int level) const { return size_ >> level; }
+    const std::vector<float>& texels() const { return texels_; }
+    std::int32_t offset(int level) const { return offsets_[level]; }
+
+    /// Bilinear within a level, linear between; `lod` is clamped to the chain. Direction of any length but 0. The scalar
+    /// twin of the kernel's fetch.
+    glm::vec3 sample(const glm::vec3& direction, float lod) const;
+
+  private:
+    void fill_border(int level);
+    int size_;
+    std::vector<std::int32_t> offsets_;
+    std::vector<float> texels_;
+};
+
+/// Sample directions of one level, shared by its texels and turned about each texel's normal by a hash. The arrays are
+/// padded to a multiple of 16 beyond `count`.
+struct LdSamples {
+    int count = 0;
+    std::vector<float> x, y, z;  ///< unit vectors about +z with the density of the lobe
+    std::vector<float> lod;      ///< pyramid level of the sample for a texel in the middle of a face
+};
+
+/// The first `count` samples for alpha in (0, 1] on a pyramid whose level 0 has `base_size` texels a side.
+/// lod = log2(K Omega_s / Omega_p) / 2 with Omega_s = 1/(count k), and Omega_p = 4 / base_size^2 that of a texel in the
+/// middle of a face; the kernel corrects for where on the face the sample falls. K = `level_bias` > 0 trades bias (large)
+/// for noise (small). importance_sampling leaves lod at 0.
+LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int base_size, double level_bias);
+
+/// Row y of a face of a level of `size`, by sampling: the unweighted mean over samples (their density is the whole lobe,
+/// NoL included, so a constant environment has no variance). `rgb_out` holds size * 3 floats. Bits do not depend on the
+/// vector width. Every texel turns the samples by a hash of (seed, size, face, x, y).
+void ld_sampled_row(const CubePyramid& pyramid, const LdSamples& samples, std::uint64_t seed, int size, int face, int y,
+                    std::span<float> rgb_out);
+
+/// Exact prefiltered radiance in `directions` (unit vectors, world) for alpha in (0, 1]: `rgb_out` holds 3 doubles each.
+///
+/// Sums k over all texels of the source, each integrated by Gauss-Legendre points, more of them the closer the texel is to
+/// the lobe against its own size. Divided by the sum of k's own weights, so that a constant environment is returned
+/// exactly. Relative error below 2e-5, of which 1e-6 is float rounding. Returns the largest |1 - integral of k| found:
+/// the quadrature's own check. Adds its kernel evaluations to `evaluations`.
+double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
+                std::span<double> rgb_out, std::uint64_t& evaluations);
+
+}  // namespace pbr
