@@ -32,13 +32,6 @@ int threads_of(const Given& given) {
     return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
 }
 
-bool is_on(const Given& given, const std::string& name) {
-    const std::string text = given.find(name).value_or("false");
-    if (text != "true" && text != "false")
-        throw Error(ExitCode::usage, "--" + name, "found \"" + text + "\"; allowed: true, false");
-    return text == "true";
-}
-
 void print_plan(const run::RunReport& report) {
     for (const run::BakeReport& bake : report.bakes) {
         std::printf("%s (%s)\n", bake.bake->name.c_str(), bake.bake->kind.c_str());
@@ -79,11 +72,11 @@ ExitCode execute(std::span<const job::Job> jobs, const Given& given, std::vector
     run::Options options;
     options.threads = threads_of(given);
     options.only = std::move(only);
-    options.dry_run = is_on(given, "dry-run");
+    options.dry_run = given.is_on("dry-run");
     options.cancel = &catch_interrupts();
-    Progress progress(is_on(given, "quiet"));
+    Progress progress(given.is_on("quiet"));
     options.observer = &progress;
-    const bool as_json = is_on(given, "json");
+    const bool as_json = given.is_on("json");
 
     const run::RunReport report = run::run(jobs, options);
     for (const Error& error : report.errors) print_error(error);

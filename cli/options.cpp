@@ -42,6 +42,13 @@ std::vector<std::string> Given::all(const std::string& name) const {
     return list;
 }
 
+bool Given::is_on(const std::string& name) const {
+    const std::string text = find(name).value_or("false");
+    if (text != "true" && text != "false")
+        throw Error(ExitCode::usage, "--" + name, "found \"" + text + "\"; allowed: true, false");
+    return text == "true";
+}
+
 std::vector<Option> Options::all_options() const {
     std::vector<Option> list = positionals_;
     for (const OptionGroup& group : groups_)

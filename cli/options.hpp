@@ -27,6 +27,8 @@ class Given {
     bool has(const std::string& name) const { return find(name).has_value(); }
     std::optional<std::string> find(const std::string& name) const;
     std::vector<std::string> all(const std::string& name) const;
+    /// Of a switch. Throws Error(usage) for a text that is neither true nor false.
+    bool is_on(const std::string& name) const;
 
   private:
     std::vector<std::pair<std::string, std::string>> texts_;  ///< long name -> text
