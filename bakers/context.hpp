@@ -36,6 +36,10 @@ class Context {
     const Accuracy& accuracy() const { return accuracy_; }
     int threads() const { return threads_; }
 
+    /// Whether certify() is to check every texel (a measurement) or a sample of them (an estimate).
+    bool certify_fully() const { return certify_fully_; }
+    void set_certify_fully(bool fully) { certify_fully_ = fully; }
+
     /// Calls body(begin, end) over disjoint ranges that cover [0, count), none longer than `grain`, on the worker
     /// threads. Results must not depend on the split. Throws Cancelled when interrupted, else what a body threw first.
     void parallel_for(std::int64_t count, std::int64_t grain,
@@ -55,6 +59,7 @@ class Context {
     struct Arena;
     int threads_;
     Accuracy accuracy_;
+    bool certify_fully_ = false;
     ProgressSink sink_;
     const std::atomic<bool>* cancel_;
     std::unique_ptr<Arena> arena_;

@@ -1,0 +1,73 @@
+#include "bakers/probe/environment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "pbr/ibl/cubemap.hpp"
+#include "pbr/numerics/elementary.hpp"
+
+namespace pbrbake::probe {
+namespace {
+
+/// Takes world directions to the source's own frame. The environment is first mirrored left to right (x -> -x), then
+/// turned counter-clockwise about its vertical axis as seen from above, then stood on the world's up axis.
+glm::dmat3 world_to_source(const ProbeParams& params) {
+    const pbr::SinCos turn = pbr::sin_cos_pi(params.rotate_deg / 180);
+    // Columns are the images of the source's axes.
+    const glm::dmat3 mirror(params.mirror ? -1 : 1, 0, 0, 0, 1, 0, 0, 0, 1);
+    const glm::dmat3 rotate(turn.cos, 0, -turn.sin, 0, 1, 0, turn.sin, 0, turn.cos);
+    // z up: the source's y becomes the world's z, its z the world's -y; x stays.
+    const glm::dmat3 stand = params.up == Up::z ? glm::dmat3(1, 0, 0, 0, 0, 1, 0, -1, 0) : glm::dmat3(1);
+    return glm::transpose(stand * rotate * mirror);
+}
+
+}  // namespace
+
+bool permutes_cube(double rotate_deg) { return std::fmod(rotate_deg, 90.0) == 0; }
+
+Environment::Environment(const ProbeParams& params, const SourceImage& source) {
+    const Level& level = source.image.levels[0];
+    const glm::dmat3 turn = world_to_source(params);
+    if (source.image.faces == 1) {
+        equirect_ = {level.texels.data(), level.width, level.height, turn};
+        return;
+    }
+    const int n = level.width;
+    if (turn == glm::dmat3(1)) {
+        cube_ = {level.texels.data(), n};
+        return;
+    }
+    permuted_.resize(level.texels.size());
+    for (int face = 0; face < 6; ++face)
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                // Multiples of 90 degrees take texel centres to texel centres.
+                const pbr::CubeTexel from = pbr::cubemap_texel(turn * pbr::cubemap_texel_direction({face, x, y}, n), n);
+                std::copy_n(source.image.texel(0, from.face, from.y, from.x), 3,
+                            &permuted_[((static_cast<std::size_t>(face) * n + y) * n + x) * 3]);
+            }
+    cube_ = {permuted_.data(), n};
+}
+
+int Environment::equivalent_size() const {
+    return is_cube() ? cube_.size : std::max({1, equirect_.width / 4, equirect_.height / 2});
+}
+
+pbr::PatchBlocks Environment::blocks() const {
+    return is_cube() ? pbr::PatchBlocks(cube_) : pbr::PatchBlocks(equirect_);
+}
+
+void Environment::resample_row(int size, int face, int y, std::span<float> rgb_out) const {
+    if (size <= equivalent_size()) return resample_area_row(size, face, y, rgb_out);
+    return is_cube() ? pbr::resample_bilinear(cube_, size, face, y, rgb_out)
+                     : pbr::resample_bilinear(equirect_, size, face, y, rgb_out);
+}
+
+void Environment::resample_area_row(int size, int face, int y, std::span<float> rgb_out) const {
+    return is_cube() ? pbr::resample_area(cube_, size, face, y, rgb_out)
+                     : pbr::resample_area(equirect_, size, face, y, rgb_out);
+}
+
+}  // namespace pbrbake::probe

@@ -1,0 +1,43 @@
+#pragma once
+// A decoded source, oriented as the job asks, as libpbr's views.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bakers/image.hpp"
+#include "bakers/probe/params.hpp"
+#include "pbr/ibl/environment.hpp"
+#include "pbr/ibl/patches.hpp"
+
+namespace pbrbake::probe {
+
+/// An equirect or a cube map in the frame of the output. An equirect is turned by its matrix and stays where it is in
+/// memory (the SourceImage must outlive this); a cube map is permuted once, which is exact.
+class Environment {
+  public:
+    Environment(const ProbeParams& params, const SourceImage& source);
+
+    bool is_cube() const { return cube_.rgb != nullptr; }
+
+    /// Size of a cube map with texels as large as the source's at its middle.
+    int equivalent_size() const;
+
+    pbr::PatchBlocks blocks() const;
+
+    /// One row of a face of a cube of `size`: the mean over each texel where texels grow, bilinear where they shrink.
+    void resample_row(int size, int face, int y, std::span<float> rgb_out) const;
+
+    /// The mean over each texel, whatever the size.
+    void resample_area_row(int size, int face, int y, std::span<float> rgb_out) const;
+
+  private:
+    pbr::EquirectView equirect_;
+    pbr::CubeView cube_;
+    std::vector<float> permuted_;
+};
+
+/// True if a job's turn can be applied to a cube map by permuting texels: a multiple of 90 degrees.
+bool permutes_cube(double rotate_deg);
+
+}  // namespace pbrbake::probe
