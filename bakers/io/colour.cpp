@@ -85,10 +85,15 @@ std::string name_of(const Encoding& encoding) {
         if (encoding.curve == named.curve && encoding.gamut == named.gamut &&
             (encoding.curve != Curve::power || std::abs(encoding.gamma - named.gamma) < .01))
             return named.name;
+    // Only files state what has no name here: custom primaries, or a power curve of another exponent.
     if (encoding.gamut == Gamut::custom) return "chromaticities";
-    char text[32];
-    std::snprintf(text, sizeof text, "g%.4g_rec709", encoding.gamma);
-    return text;
+    std::string gamut;
+    for (const Named& named : kNamed)
+        if (named.curve == Curve::linear && named.gamut == encoding.gamut) gamut = named.name;
+    if (gamut.starts_with("lin_")) gamut.erase(0, 4);
+    char text[16];
+    std::snprintf(text, sizeof text, "g%.3g_", encoding.gamma);
+    return text + gamut;
 }
 
 Encoding linear_with(const Chromaticities& primaries, const std::string& where) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "bakers/io/colour.hpp"
+
 namespace pbrbake::io {
 namespace {
 
@@ -89,15 +91,30 @@ double least_bytes(ForeignFormat format, Bytes file, const PictureSpec& spec) {
     return 0;
 }
 
-bool png_states_encoding(Bytes file) {
+std::optional<Encoding> png_encoding(Bytes file, const std::string& where) {
+    constexpr double kUnit = 100000;  // of gAMA and cHRM
+    bool srgb = false;
+    double gamma = 0;
+    std::optional<Chromaticities> primaries;
     for (std::size_t at = 8; at + 12 <= file.size();) {
         const std::size_t size = big_endian(file, at, 4);
         const std::string type = text_at(file, at + 4, 4);
-        if (type == "IDAT") return false;
-        if (type == "sRGB" || type == "gAMA") return true;
+        if (type == "IDAT" || size > file.size() - at - 12) break;
+        const auto field = [&](std::size_t i) { return big_endian(file, at + 8 + 4 * i, 4) / kUnit; };
+        if (type == "sRGB") srgb = true;
+        if (type == "gAMA" && size == 4 && field(0) > 0) gamma = 1 / field(0);
+        if (type == "cHRM" && size == 32)
+            primaries = {{field(2), field(3)}, {field(4), field(5)}, {field(6), field(7)}, {field(0), field(1)}};
         at += 12 + size;
     }
-    return false;
+    if (srgb) return Encoding{Curve::srgb, Gamut::rec709, 1, {}};
+    if (gamma < 1e-3 || gamma > 10) return {};  // none, or beyond what a power curve is made for
+    Encoding encoding = primaries ? linear_with(*primaries, where) : Encoding{};
+    if (std::abs(gamma - 1) > .01) {
+        encoding.curve = Curve::power;
+        encoding.gamma = gamma;
+    }
+    return encoding;
 }
 
 bool jpeg_is_complete(Bytes file) {

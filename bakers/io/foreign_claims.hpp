@@ -16,8 +16,9 @@ std::optional<ForeignFormat> foreign_format(Bytes file, const std::string& exten
 /// A lower bound of the bytes in which the format can hold the picture that `spec` claims.
 double least_bytes(ForeignFormat format, Bytes file, const PictureSpec& spec);
 
-/// Whether a PNG says how it is encoded (an sRGB or gAMA chunk before its pixels).
-bool png_states_encoding(Bytes file);
+/// What a PNG's sRGB, gAMA and cHRM chunks say of its encoding (PNG, third edition, 11.3.2); nothing when it has
+/// neither of the first two. OpenImageIO calls every PNG sRGB. Throws Error(unreadable_input) for impossible primaries.
+std::optional<Encoding> png_encoding(Bytes file, const std::string& where);
 
 /// Whether a JPEG runs to its end-of-image marker. Decoders paint what is missing grey and call it success.
 bool jpeg_is_complete(Bytes file);

@@ -23,9 +23,8 @@ struct PictureSpec {
     int channels = 0;
     int bytes_per_channel = 0;
     bool is_float = false;
-    int orientation = 1;       ///< as Exif counts: 1 upright, 2 mirrored, 3 turned by 180°, …
-    std::string colour_space;  ///< OpenImageIO's word; "" when it has none
-    double gamma = 0;          ///< of a power curve the file states, 0 when none
+    int orientation = 1;  ///< as Exif counts: 1 upright, 2 mirrored, 3 turned by 180°, …
+    double gamma = 0;     ///< of a power curve the file states, 0 when none
     bool exif_srgb = false;
     std::string compression;
 };

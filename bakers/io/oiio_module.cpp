@@ -20,7 +20,6 @@ PictureSpec describe(const OIIO::ImageSpec& spec) {
     picture.bytes_per_channel = static_cast<int>(spec.format.size());
     picture.is_float = spec.format.is_floating_point();
     picture.orientation = spec.get_int_attribute("Orientation", 1);
-    picture.colour_space = spec.get_string_attribute("oiio:ColorSpace");
     picture.gamma = spec.get_float_attribute("oiio:Gamma", 0.f);
     picture.exif_srgb = spec.get_int_attribute("Exif:ColorSpace", 0) == 1;
     picture.compression = spec.get_string_attribute("compression");

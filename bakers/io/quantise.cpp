@@ -39,11 +39,12 @@ float round_to(float value, PixelType pixel) {
 }  // namespace
 
 double quantise(std::vector<Image>& images, PixelType pixel) {
+    const bool is_signed = pixel == PixelType::half || pixel == PixelType::float32;
     double peak = 0;
     for (const Image& image : images)
         for (const Level& level : image.levels)
             for (const float value : level.texels)
-                if (std::isfinite(value)) peak = std::max(peak, std::abs(static_cast<double>(value)));
+                if (std::isfinite(value)) peak = std::max(peak, static_cast<double>(is_signed ? std::abs(value) : value));
 
     double scale = 1;
     while (peak * scale > limit_of(pixel)) scale /= 2;

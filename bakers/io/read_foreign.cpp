@@ -23,26 +23,26 @@ const char* oiio_name(ForeignFormat format) {
     return "";
 }
 
-/// Fills in encoding and encoding_assumed. Float pixels are taken for linear Rec. 709, integers for sRGB, unless the
-/// file has its say: a PNG's sRGB and gAMA, a TGA's gamma, Exif's ColorSpace. ICC profiles are not read.
-void find_encoding(ForeignFormat format, Bytes file, const PictureSpec& spec, Decoded& decoded) {
-    const Encoding linear{Curve::linear, Gamut::rec709, 1, {}};
-    const Encoding srgb{Curve::srgb, Gamut::rec709, 1, {}};
-    decoded.encoding = spec.is_float ? linear : srgb;
-    decoded.encoding_assumed = true;
-    if (spec.is_float) return;
+/// What the file says of its encoding: a PNG's chunks, Exif's ColorSpace, a TGA's gamma. ICC profiles are not read.
+std::optional<Encoding> stated_encoding(ForeignFormat format, Bytes file, const std::string& where,
+                                        const PictureSpec& spec) {
+    if (format == ForeignFormat::png) return png_encoding(file, where);
+    if (spec.exif_srgb) return Encoding{Curve::srgb, Gamut::rec709, 1, {}};
+    if (format == ForeignFormat::targa && std::abs(spec.gamma - 1) < .01) return Encoding{};
+    if (format == ForeignFormat::targa && spec.gamma >= 1 && spec.gamma <= 10)
+        return Encoding{Curve::power, Gamut::rec709, spec.gamma, {}};
+    return {};
+}
 
-    const bool states = (format == ForeignFormat::png && png_states_encoding(file)) || spec.exif_srgb ||
-                        (format == ForeignFormat::targa && spec.gamma > 0);
-    if (!states) return;
-    decoded.encoding_assumed = false;
-    if (spec.exif_srgb || spec.colour_space == "sRGB") return;
-    if (std::abs(spec.gamma - 1) < .01)
-        decoded.encoding = linear;
-    else if (spec.gamma >= 1 && spec.gamma <= 10)
-        decoded.encoding = {Curve::power, Gamut::rec709, spec.gamma, {}};
-    else
-        decoded.encoding_assumed = true;
+/// Float pixels are taken for linear Rec. 709, integers for sRGB, unless the file has its say.
+void find_encoding(ForeignFormat format, Bytes file, const std::string& where, const PictureSpec& spec,
+                   Decoded& decoded) {
+    decoded.encoding.curve = spec.is_float ? Curve::linear : Curve::srgb;
+    if (spec.is_float) return;
+    if (const auto stated = stated_encoding(format, file, where, spec)) {
+        decoded.encoding = *stated;
+        decoded.encoding_assumed = false;
+    }
 }
 
 void check_claims(ForeignFormat format, Bytes file, const std::string& where, const PictureSpec& spec,
@@ -132,7 +132,7 @@ Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& wher
     Decoded decoded;
     decoded.width = spec.width;
     decoded.height = spec.height;
-    find_encoding(format, file, spec, decoded);
+    find_encoding(format, file, where, spec, decoded);
     read_texels(*reader, where, decoded.rgb);
     turn_upright(spec.orientation, decoded);
     return decoded;
