@@ -21,10 +21,10 @@ struct ReadLimits {
 };
 
 struct ReadRequest {
-    std::filesystem::path path;
+    std::filesystem::path path = {};
     std::string colour_space = "auto";         ///< of the file; "auto": what the file tells, else by its type
     std::string working_space = "lin_rec709";  ///< of the result: lin_rec709 | acescg
-    ReadLimits limits;
+    ReadLimits limits = {};
 };
 
 /// Reads an equirect (HDR, EXR, PNG, TIFF, TGA, JPEG) or a cube map (EXR with an envmap attribute), linear, in the

@@ -1,0 +1,22 @@
+#pragma once
+// The containers that products are written to and read from, one codec a format.
+
+#include <string>
+#include <vector>
+
+#include "bakers/io/file_bytes.hpp"
+#include "bakers/io/io.hpp"
+
+namespace pbrbake::io {
+
+/// See encode(). The image's shape has been checked.
+std::vector<std::byte> encode_exr(const Image& image, const FileInfo& info);
+std::vector<std::byte> encode_ktx2(const Image& image, const FileInfo& info);
+
+/// See read_product().
+ReadBack read_exr_product(Bytes file, const std::string& where);
+ReadBack read_ktx2_product(Bytes file, const std::string& where);
+
+inline Error unwritable(std::string message) { return Error(ExitCode::unwritable_output, "", std::move(message)); }
+
+}  // namespace pbrbake::io

@@ -1,0 +1,17 @@
+#include "bakers/io/ktx2_format.hpp"
+
+namespace pbrbake::io::ktx2 {
+
+std::optional<Format> format_for(int channels, PixelType pixel) {
+    for (const Format& format : kFormats)
+        if (format.pixel == pixel && format.channels >= channels) return format;
+    return {};
+}
+
+std::optional<Format> format_of(std::uint32_t vk_format) {
+    for (const Format& format : kFormats)
+        if (format.vk_format == vk_format) return format;
+    return {};
+}
+
+}  // namespace pbrbake::io::ktx2

@@ -1,0 +1,68 @@
+#pragma once
+// What the run-time loaded modules offer: OpenImageIO's and OpenColorIO's share of io, behind a face that names
+// neither. Nothing throws across it; a failure is `false` (or null) and a message.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bakers/io/encoding.hpp"
+
+namespace pbrbake::io {
+
+/// Raised when anything in this header changes; a module of another number is refused.
+inline constexpr int kModuleAbi = 1;
+
+/// What a file says of its picture before a pixel is decoded.
+struct PictureSpec {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    int bytes_per_channel = 0;
+    bool is_float = false;
+    int orientation = 1;  ///< as Exif counts: 1 upright, 2 mirrored, 3 turned by 180°, …
+    double gamma = 0;     ///< of a power curve the file states, 0 when none
+    bool exif_srgb = false;
+    std::string compression;
+};
+
+/// One open picture. Rows are read in order, top of the file first.
+class PictureReader {
+  public:
+    virtual ~PictureReader() = default;
+    virtual const PictureSpec& spec() const noexcept = 0;
+    /// Rows that a call to read_rows had best be a multiple of (a tile's height, else 1).
+    virtual int row_quantum() const noexcept = 0;
+    /// Channels that read_rows returns: 3 of a colour picture, 1 of a grey one; alpha is dropped, unmultiplied.
+    virtual int decoded_channels() const noexcept = 0;
+    /// Decodes rows [begin, end), integers as [0, 1], into (end - begin) * width * decoded_channels() floats.
+    virtual bool read_rows(int begin, int end, float* texels, std::string& error) noexcept = 0;
+};
+
+struct OiioModule {
+    int abi;
+    /// `format` is OpenImageIO's name ("hdr", "png", "tiff", "targa", "jpeg"); `file` must outlive the reader.
+    std::unique_ptr<PictureReader> (*open)(const char* format, std::span<const std::byte> file, std::string& error);
+    bool (*write_png8)(int width, int height, const std::uint8_t* rgb, std::vector<std::byte>& file,
+                       std::string& error);
+};
+
+struct OcioModule {
+    int abi;
+    /// From `from` to linear light in `working`, in place, over `texels` RGB triples.
+    bool (*convert)(const Encoding& from, Gamut working, float* rgb, std::size_t texels, std::string& error);
+};
+
+/// Loads a module at its first use. Throws Error(unreadable_input) that names the files it looked for.
+const OiioModule& oiio_module();
+const OcioModule& ocio_module();
+
+}  // namespace pbrbake::io
+
+extern "C" {
+using PbrbakeOiioEntry = const pbrbake::io::OiioModule*();
+using PbrbakeOcioEntry = const pbrbake::io::OcioModule*();
+}

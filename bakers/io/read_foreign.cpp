@@ -1,0 +1,141 @@
+// HDR, PNG, TIFF, TGA and JPEG through the OpenImageIO module.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "bakers/io/colour.hpp"
+#include "bakers/io/decoded.hpp"
+#include "bakers/io/foreign_claims.hpp"
+#include "bakers/io/module_api.hpp"
+
+namespace pbrbake::io {
+namespace {
+
+const char* oiio_name(ForeignFormat format) {
+    switch (format) {
+        case ForeignFormat::hdr: return "hdr";
+        case ForeignFormat::png: return "png";
+        case ForeignFormat::tiff: return "tiff";
+        case ForeignFormat::targa: return "targa";
+        case ForeignFormat::jpeg: return "jpeg";
+    }
+    return "";
+}
+
+/// What the file says of its encoding: a PNG's chunks, Exif's ColorSpace, a TGA's gamma. ICC profiles are not read.
+std::optional<Encoding> stated_encoding(ForeignFormat format, Bytes file, const std::string& where,
+                                        const PictureSpec& spec) {
+    if (format == ForeignFormat::png) return png_encoding(file, where);
+    if (spec.exif_srgb) return Encoding{Curve::srgb, Gamut::rec709, 1, {}};
+    if (format == ForeignFormat::targa && std::abs(spec.gamma - 1) < .01) return Encoding{};
+    if (format == ForeignFormat::targa && spec.gamma >= 1 && spec.gamma <= 10)
+        return Encoding{Curve::power, Gamut::rec709, spec.gamma, {}};
+    return {};
+}
+
+/// Float pixels are taken for linear Rec. 709, integers for sRGB, unless the file has its say.
+void find_encoding(ForeignFormat format, Bytes file, const std::string& where, const PictureSpec& spec,
+                   Decoded& decoded) {
+    decoded.encoding.curve = spec.is_float ? Curve::linear : Curve::srgb;
+    if (spec.is_float) return;
+    if (const auto stated = stated_encoding(format, file, where, spec)) {
+        decoded.encoding = *stated;
+        decoded.encoding_assumed = false;
+    }
+}
+
+void check_claims(ForeignFormat format, Bytes file, const std::string& where, const PictureSpec& spec,
+                  const ReadLimits& limits) {
+    check_limits(spec.width, spec.height, kRgbBytes, where, limits);
+    if (spec.channels < 1 || spec.bytes_per_channel < 1) throw unreadable(where, "has no channels");
+    const double least = least_bytes(format, file, spec);
+    if (least > static_cast<double>(file.size()))
+        throw unreadable(where, "claims " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                                    " texels, which its format can't hold in the file's " +
+                                    std::to_string(file.size()) + " bytes: it is truncated or malformed");
+}
+
+/// Appends one decoded strip, grey spread to RGB.
+void append_rgb(const std::vector<float>& strip, std::size_t count, int channels, std::vector<float>& rgb) {
+    if (channels == 3) {
+        rgb.insert(rgb.end(), strip.begin(), strip.begin() + static_cast<std::ptrdiff_t>(count));
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) rgb.insert(rgb.end(), 3, strip[i]);
+}
+
+/// Row by row, so that memory is taken only as far as the file's bytes last.
+void read_texels(PictureReader& reader, const std::string& where, std::vector<float>& rgb) {
+    const PictureSpec& spec = reader.spec();
+    const int channels = reader.decoded_channels();
+    constexpr int kRows = 64;
+    const int step = (kRows + reader.row_quantum() - 1) / reader.row_quantum() * reader.row_quantum();
+    const std::size_t row = static_cast<std::size_t>(spec.width) * channels;
+    std::vector<float> strip(row * static_cast<std::size_t>(std::min(step, spec.height)));
+    rgb.reserve(static_cast<std::size_t>(spec.width) * spec.height * 3);
+    for (int begin = 0; begin < spec.height; begin += step) {
+        const int end = std::min(begin + step, spec.height);
+        std::string error;
+        if (!reader.read_rows(begin, end, strip.data(), error))
+            throw unreadable(where, "is truncated or malformed: " + error);
+        append_rgb(strip, row * static_cast<std::size_t>(end - begin), channels, rgb);
+    }
+}
+
+/// Applies an Exif orientation (2-8), so that row 0 is the top of the picture.
+void turn_upright(int orientation, Decoded& decoded) {
+    if (orientation <= 1 || orientation > 8) return;
+    const int w = decoded.width, h = decoded.height;
+    const bool transposed = orientation >= 5;
+    const bool flip_x = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
+    const bool flip_y = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
+    std::vector<float> upright(decoded.rgb.size());
+    const int out_w = transposed ? h : w, out_h = transposed ? w : h;
+    for (int y = 0; y < out_h; ++y)
+        for (int x = 0; x < out_w; ++x) {
+            // Stored coordinates before the flips: Exif 2.32, 4.6.4 A, "Orientation".
+            int sx = transposed ? y : x, sy = transposed ? x : y;
+            if (flip_x) sx = w - 1 - sx;
+            if (flip_y) sy = h - 1 - sy;
+            const float* from = decoded.rgb.data() + (static_cast<std::size_t>(sy) * w + sx) * 3;
+            std::copy(from, from + 3, upright.data() + (static_cast<std::size_t>(y) * out_w + x) * 3);
+        }
+    decoded.rgb = std::move(upright);
+    decoded.width = out_w;
+    decoded.height = out_h;
+}
+
+}  // namespace
+
+void check_limits(std::int64_t width, std::int64_t height, double bytes_per_texel, const std::string& where,
+                  const ReadLimits& limits) {
+    const std::string size = std::to_string(width) + " x " + std::to_string(height) + " texels";
+    if (width < 1 || height < 1) throw unreadable(where, "claims " + size);
+    if (width > limits.max_side || height > limits.max_side)
+        throw unreadable(where, "claims " + size + "; the limit is " + std::to_string(limits.max_side) + " a side");
+    const double bytes = static_cast<double>(width) * static_cast<double>(height) * bytes_per_texel;
+    if (bytes > static_cast<double>(limits.max_decoded_bytes))
+        throw unreadable(where, "claims " + size + ", which take " + std::to_string(static_cast<std::uint64_t>(bytes)) +
+                                    " bytes; the limit is " + std::to_string(limits.max_decoded_bytes));
+}
+
+Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& where, const ReadLimits& limits) {
+    if (format == ForeignFormat::jpeg && !jpeg_is_complete(file))
+        throw unreadable(where, "is truncated: it has no end-of-image marker");
+    std::string error;
+    const auto reader = oiio_module().open(oiio_name(format), file, error);
+    if (!reader) throw unreadable(where, "is truncated or malformed: " + error);
+    const PictureSpec& spec = reader->spec();
+    check_claims(format, file, where, spec, limits);
+
+    Decoded decoded;
+    decoded.width = spec.width;
+    decoded.height = spec.height;
+    find_encoding(format, file, where, spec, decoded);
+    read_texels(*reader, where, decoded.rgb);
+    turn_upright(spec.orientation, decoded);
+    return decoded;
+}
+
+}  // namespace pbrbake::io

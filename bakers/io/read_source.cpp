@@ -1,0 +1,88 @@
+// read_source: sniff, decode, repair, convert.
+
+#include <algorithm>
+#include <cctype>
+#include <new>
+
+#include "bakers/io/colour.hpp"
+#include "bakers/io/decoded.hpp"
+#include "bakers/io/foreign_claims.hpp"
+#include "bakers/io/io.hpp"
+#include "bakers/io/repair.hpp"
+
+namespace pbrbake::io {
+namespace {
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+Decoded decode(Bytes file, const ReadRequest& request) {
+    using namespace std::string_view_literals;
+    const std::string where = request.path.string();
+    if (file.empty()) throw unreadable(where, "is empty");
+    if (begins_with(file, "\x76\x2f\x31\x01"sv)) return decode_exr(file, where, request.limits);
+    if (const auto format = foreign_format(file, lower_extension(request.path)))
+        return decode_foreign(*format, file, where, request.limits);
+    throw unreadable(where, "is none of the formats that are read: EXR, HDR (RGBE), PNG, TIFF, TGA (.tga), JPEG");
+}
+
+/// The encoding that the request or the file states, else the file's type suggests. Nothing: numbers are taken as is.
+std::optional<Encoding> resolve_encoding(const ReadRequest& request, const Decoded& decoded, SourceImage& source) {
+    if (request.colour_space == "auto") {
+        source.colour_space = name_of(decoded.encoding);
+        source.colour_space_assumed = decoded.encoding_assumed;
+        return decoded.encoding;
+    }
+    source.colour_space = request.colour_space;
+    if (request.colour_space == "raw") return {};
+    if (auto named = encoding_named(request.colour_space)) return named;
+    throw Error(ExitCode::invalid_job, request.path.string(),
+                "unknown colour space '" + request.colour_space + "'; allowed: " + listed(colour_spaces()));
+}
+
+}  // namespace
+
+SourceImage read_source(const ReadRequest& request) {
+    const std::string where = request.path.string();
+    const auto working = working_gamut(request.working_space);
+    if (!working)
+        throw Error(ExitCode::invalid_job, where,
+                    "unknown working space '" + request.working_space + "'; allowed: lin_rec709, acescg");
+    try {
+        // A file's bytes are at most as many as its decoded texels take, but for channels that aren't read.
+        const std::vector<std::byte> bytes = read_file(request.path, request.limits.max_decoded_bytes * 2);
+        SourceImage source;
+        source.hash = hash_bytes(bytes.data(), bytes.size());
+        Decoded decoded = decode(bytes, request);
+        source.units = decoded.units;
+
+        repair_non_finite(decoded.rgb, source.repairs);
+        if (const auto encoding = resolve_encoding(request, decoded, source))
+            convert(*encoding, *working, decoded.rgb, where);
+        if (decoded.to_units != 1)
+            for (float& value : decoded.rgb) value = static_cast<float>(value * decoded.to_units);
+        repair_non_finite(decoded.rgb, source.repairs);  // a conversion can overflow
+        repair_negative(decoded.rgb, source.repairs);
+
+        source.image.channels = {"R", "G", "B"};
+        source.image.faces = decoded.faces;
+        source.image.levels.push_back({decoded.width, decoded.height, std::move(decoded.rgb)});
+        return source;
+    } catch (const std::bad_alloc&) {
+        throw unreadable(where, "doesn't fit into memory");
+    } catch (const std::length_error&) {
+        throw unreadable(where, "doesn't fit into memory");
+    }
+}
+
+}  // namespace pbrbake::io

@@ -1,0 +1,195 @@
+#include "bakers/job/job.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "bakers/job/json_text.hpp"
+#include "bakers/job/paths.hpp"
+#include "bakers/job/schema.hpp"
+#include "bakers/job/words.hpp"
+
+namespace pbrbake::job {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+std::string all_lines(const std::vector<Mistake>& mistakes) {
+    std::vector<std::string> lines;
+    for (const Mistake& mistake : mistakes) lines.push_back(mistake.pointer + ": " + mistake.message);
+    return joined(lines, "\n");
+}
+
+/// Reads a document that the schema may have found fault with: what is sound is still looked at.
+class Reading {
+  public:
+    Reading(Json document, Fence fence) : document_(std::move(document)), fence_(std::move(fence)) {
+        mistakes_ = job_schema().mistakes(document_);
+        job_schema().complete(document_);
+    }
+
+    /// A bake's product is called by its name, unless `product` is given.
+    Job read(const fs::path& product) {
+        Job job;
+        if (is_sound("/working_space")) job.working_space = document_["working_space"].get<std::string>();
+        if (is_sound("/limits")) {
+            job.max_side = document_["limits"]["max_side"].get<int>();
+            job.max_decoded_bytes = document_["limits"]["max_decoded_bytes"].get<std::uint64_t>();
+        }
+        if (is_sound("/output")) job.output = read_output();
+        if (document_.contains("bakes") && document_["bakes"].is_array())
+            for (std::size_t i = 0; i < document_["bakes"].size(); ++i) {
+                const std::string at = "/bakes/" + std::to_string(i);
+                if (!is_sound(at)) continue;
+                Bake bake = read_bake(document_["bakes"][i], at);
+                bake.file = product.empty() ? bake.name + "." + bake.format : product.filename().string();
+                job.bakes.push_back(std::move(bake));
+            }
+        return job;
+    }
+
+    const std::vector<Mistake>& mistakes() const { return mistakes_; }
+
+  private:
+    void add(std::string pointer, std::string message) {
+        mistakes_.push_back({std::move(pointer), std::move(message)});
+    }
+
+    /// Whether the document is an object and nothing is wrong at a pointer or inside it.
+    bool is_sound(const std::string& pointer) const {
+        return document_.is_object() &&
+               std::none_of(mistakes_.begin(), mistakes_.end(), [&](const Mistake& mistake) {
+                   return (mistake.pointer + "/").starts_with(pointer + "/");
+               });
+    }
+
+    fs::path read_output() {
+        const std::string output = document_["output"].get<std::string>();
+        if (const auto refusal = fence_.refusal(output)) add("/output", shown(output) + " " + *refusal);
+        return fence_.resolve(output);
+    }
+
+    Bake read_bake(Json& json, const std::string& at) {
+        Bake bake;
+        bake.kind = json["kind"].get<std::string>();
+        bake.name = json["name"].get<std::string>();
+        bake.format = json["format"].get<std::string>();
+        bake.pixel = json["pixel"] == "half" ? PixelType::half : PixelType::float32;
+        bake.certify = read_certify(json["certify"].get<std::string>());
+        bake.baker = find_baker(bake.kind);
+        read_accuracy(json, at, bake);
+        check_name(bake.name, at);
+        for (const Mistake& mistake : bake.baker->check(json)) add(at + mistake.pointer, mistake.message);
+        bake.json = json;
+        bake.params = json;
+        bake.params.erase("kind");
+        bake.params.erase("name");
+        for (const Read& read : bake.baker->reads(json)) read_source(read, at, bake);
+        return bake;
+    }
+
+    static Certify read_certify(const std::string& name) {
+        return name == "none" ? Certify::none : name == "full" ? Certify::full : Certify::sampled;
+    }
+
+    void read_accuracy(Json& json, const std::string& at, Bake& bake) {
+        const bool own = json.contains("accuracy");
+        if (!own && is_sound("/accuracy")) json["accuracy"] = document_["accuracy"];
+        if (!json.contains("accuracy")) return;
+        const Json& accuracy = json["accuracy"];
+        if (accuracy.is_string()) {
+            bake.accuracy = {accuracy.get<std::string>(), 0};
+            return;
+        }
+        bake.accuracy = {"", accuracy["max_error"].get<double>()};
+        if (bake.certify == Certify::none)
+            add(at + "/certify",
+                std::string("found \"none\", but ") + (own ? "this bake" : "the job") +
+                    " states a max_error, which takes a certificate to check; allowed: \"sampled\", "
+                    "\"full\", or an accuracy by name");
+    }
+
+    void check_name(const std::string& name, const std::string& at) {
+        const auto [earlier, is_new] = names_.emplace(name, at);
+        if (!is_new)
+            add(at + "/name", "found " + shown(name) + ", the name of " + earlier->second +
+                                  " too; names differ, "
+                                  "because each names its own product");
+    }
+
+    void read_source(const Read& read, const std::string& at, Bake& bake) {
+        if (read.path.starts_with(kBuiltin)) {
+            bake.sources.push_back({read, {}});
+            return;
+        }
+        if (const auto refusal = fence_.refusal(read.path)) {
+            add(at + "/" + read.field, shown(read.path) + " " + *refusal);
+            return;
+        }
+        Source source{read, fence_.resolve(read.path)};
+        const fs::path given(read.path);
+        if (given.is_absolute()) {  // only trusted paths are; a record holds no absolute path
+            source.read.path = given.filename().string();
+            bake.params[read.field] = source.read.path;
+        }
+        bake.sources.push_back(std::move(source));
+    }
+
+    Json document_;
+    Fence fence_;
+    std::vector<Mistake> mistakes_;
+    std::map<std::string, std::string> names_;  ///< name -> pointer of its bake
+};
+
+std::vector<fs::path> declared_roots(const Json& document) {
+    std::vector<fs::path> roots;
+    if (!document.is_object() || !document.contains("roots") || !document["roots"].is_array()) return roots;
+    for (const Json& root : document["roots"])
+        if (root.is_string()) roots.emplace_back(root.get<std::string>());
+    return roots;
+}
+
+/// How the user knows a place: the longest pointer of the list that leads there.
+std::string place_name(const OneShot& command, const std::string& pointer) {
+    std::string best = pointer;
+    std::size_t longest = 0;
+    for (const auto& [known, name] : command.places)
+        if (known.size() > longest && (pointer + "/").starts_with(known + "/")) {
+            longest = known.size();
+            best = name;
+        }
+    return best;
+}
+
+}  // namespace
+
+JobError::JobError(ExitCode code, std::vector<Mistake> mistakes)
+    : Error(code, "", all_lines(mistakes)), mistakes_(std::move(mistakes)) {}
+
+Job load(const fs::path& file, const std::vector<fs::path>& roots) {
+    Json document = parse_json(read_text(file), file.string());
+    std::vector<fs::path> all_roots = declared_roots(document);
+    for (const fs::path& root : roots) all_roots.push_back(fs::absolute(root));
+
+    Reading reading(std::move(document), Fence(file.parent_path(), all_roots));
+    Job job = reading.read({});
+    job.file = file;
+    if (reading.mistakes().empty()) return job;
+    std::vector<Mistake> mistakes = reading.mistakes();
+    for (Mistake& mistake : mistakes) mistake.pointer = file.string() + "#" + mistake.pointer;
+    throw JobError(ExitCode::invalid_job, std::move(mistakes));
+}
+
+Job from_document(Json document, const OneShot& command) {
+    Reading reading(std::move(document), Fence::open());
+    Job job = reading.read(command.output);
+    job.output = command.output.parent_path();
+    job.record = Record::sidecar;
+    if (reading.mistakes().empty()) return job;
+    std::vector<Mistake> mistakes = reading.mistakes();
+    for (Mistake& mistake : mistakes) mistake.pointer = place_name(command, mistake.pointer);
+    throw JobError(ExitCode::usage, std::move(mistakes));
+}
+
+}  // namespace pbrbake::job

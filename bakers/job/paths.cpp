@@ -1,0 +1,46 @@
+#include "bakers/job/paths.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+namespace pbrbake::job {
+namespace fs = std::filesystem;
+namespace {
+
+/// Absolute, links followed as far as the path exists. weakly_canonical leaves a relative path relative where
+/// nothing of it exists, so it starts from the current folder.
+fs::path real_path(const fs::path& path) {
+    std::error_code error;
+    const fs::path absolute = fs::absolute(path.empty() ? "." : path, error);
+    const fs::path real = fs::weakly_canonical(absolute, error);
+    return (error ? absolute : real).lexically_normal();
+}
+
+bool is_inside(const fs::path& path, const fs::path& folder) {
+    const auto [end, unused] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+    return end == folder.end() || (std::next(end) == folder.end() && end->empty());  // a trailing slash
+}
+
+}  // namespace
+
+Fence::Fence(fs::path folder, const std::vector<fs::path>& roots)
+    : folder_(std::move(folder)), fenced_(true) {
+    allowed_.push_back(real_path(folder_));
+    for (const fs::path& root : roots) allowed_.push_back(real_path(folder_ / root));
+}
+
+Fence Fence::open() { return {}; }
+
+std::optional<std::string> Fence::refusal(const std::string& path) const {
+    if (path.find('\0') != std::string::npos) return "holds a NUL character";
+    if (!fenced_) return std::nullopt;
+    if (fs::path(path).is_absolute())
+        return "is absolute; give it relative to the job file, so that the job means the same everywhere";
+    const fs::path real = real_path(resolve(path));
+    const auto inside = [&](const fs::path& folder) { return is_inside(real, folder); };
+    if (std::any_of(allowed_.begin(), allowed_.end(), inside)) return std::nullopt;
+    return "leads outside the job file's folder, to " + real.string() +
+           "; allowed: that folder and its roots (add one to \"roots\", or with --root DIR)";
+}
+
+}  // namespace pbrbake::job

@@ -1,0 +1,32 @@
+#pragma once
+// Which files a job may touch.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pbrbake::job {
+
+/// Resolves paths against a folder, and keeps them inside it and the roots, symbolic links followed.
+class Fence {
+  public:
+    /// A fence around the folder and the roots; relative roots start at the folder.
+    Fence(std::filesystem::path folder, const std::vector<std::filesystem::path>& roots);
+    /// No fence: relative paths start at the current folder, all are trusted.
+    static Fence open();
+
+    std::filesystem::path resolve(const std::string& path) const {
+        return (folder_ / path).lexically_normal();
+    }
+    /// Why a path is refused, in words; nothing if it is allowed.
+    std::optional<std::string> refusal(const std::string& path) const;
+
+  private:
+    Fence() = default;
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> allowed_;
+    bool fenced_ = false;
+};
+
+}  // namespace pbrbake::job

@@ -1,0 +1,213 @@
+#include "bakers/run/bake_one.hpp"
+
+#include <new>
+#include <sstream>
+
+#include "bakers/io/io.hpp"
+#include "bakers/job/json_text.hpp"
+#include "bakers/probe/probe.hpp"
+#include "bakers/run/atomic_file.hpp"
+#include "bakers/run/entry.hpp"
+
+namespace pbrbake::run {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+std::string number_text(double number) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream << number;
+    return stream.str();
+}
+
+/// A bake on its way: what one stage leaves for the next.
+class BakeRun {
+  public:
+    BakeRun(const job::Job& job, const job::Bake& bake, const Options& options)
+        : job_(job), bake_(bake), options_(options), report_(plan_bake(job, bake)) {}
+
+    BakeReport run() {
+        try {
+            run_stages();
+            report_.status = report_.error.empty() ? Status::done : Status::accuracy_missed;
+        } catch (const Cancelled&) {
+            end(Status::interrupted, ExitCode::interrupted, "interrupted");
+        } catch (const Error& error) {
+            end(Status::failed, error.code(), error.what());
+        } catch (const std::bad_alloc&) {
+            end(Status::failed, ExitCode::mixed_failures, "does not fit into memory; bake it smaller");
+        } catch (const std::exception& error) {
+            end(Status::failed, ExitCode::mixed_failures,
+                std::string("internal error, please report: ") + error.what());
+        }
+        report_.peak_memory_bytes = peak_memory_bytes();
+        return std::move(report_);
+    }
+
+  private:
+    void run_stages() {
+        timed(Stage::decode, [&] { decode(); });
+        timed(Stage::bake, [&] { bake(); });
+        if (bake_.certify != job::Certify::none) timed(Stage::certify, [&] { certify(); });
+        timed(Stage::encode, [&] { encode(); });
+        timed(Stage::write, [&] { write(); });
+        check_accuracy();
+    }
+
+    template <class Step>
+    void timed(Stage stage, Step step) {
+        if (options_.cancel && options_.cancel->load(std::memory_order_relaxed)) throw Cancelled{};
+        if (options_.observer) options_.observer->progress(stage, 0);
+        const Stopwatch watch;
+        step();
+        report_.seconds[stage] = watch.elapsed();
+    }
+
+    void end(Status status, ExitCode code, std::string error) {
+        report_.status = status;
+        report_.code = code;
+        report_.error = std::move(error);
+    }
+
+    std::unique_ptr<Context> context(Stage stage) const {
+        Context::ProgressSink sink;
+        if (options_.observer)
+            sink = [observer = options_.observer, stage](double fraction) {
+                observer->progress(stage, fraction);
+            };
+        return std::make_unique<Context>(options_.threads, bake_.accuracy, std::move(sink), options_.cancel);
+    }
+
+    void decode() {
+        for (const job::Source& source : bake_.sources) {
+            SourceImage image = source.file.empty() ? builtin(source.read.path) : read(source);
+            warn_of(source, image);
+            inputs_.emplace(source.read.field, std::move(image));
+        }
+    }
+
+    SourceImage builtin(const std::string& path) const {
+        if (job_.working_space != "lin_rec709")
+            throw Error(ExitCode::unreadable_input, path,
+                        "is defined in lin_rec709; bake it with that working_space, or take a file");
+        return probe::builtin_environment(path.substr(kBuiltin.size()));
+    }
+
+    SourceImage read(const job::Source& source) const {
+        return io::read_source({source.file,
+                                source.read.colour_space,
+                                job_.working_space,
+                                {job_.max_side, job_.max_decoded_bytes}});
+    }
+
+    void warn_of(const job::Source& source, const SourceImage& image) {
+        const std::string& path = source.read.path;
+        const Repairs& repairs = image.repairs;
+        if (repairs.non_finite > 0)
+            report_.warnings.push_back(
+                path + ": " + std::to_string(repairs.non_finite) +
+                " texels were NaN or infinite; NaN became 0, infinity the largest value");
+        if (repairs.negative > 0)
+            report_.warnings.push_back(path + ": " + std::to_string(repairs.negative) +
+                                       " texels were negative (lowest " + number_text(repairs.lowest) +
+                                       "); they became 0");
+        if (image.colour_space_assumed)
+            report_.warnings.push_back(path + ": does not tell its colour space; taken as " +
+                                       image.colour_space + " (state it with colour_space)");
+    }
+
+    void bake() {
+        const auto context = this->context(Stage::bake);
+        product_ = bake_.baker->run(bake_.json, inputs_, *context);
+        report_.bake_evaluations = context->counts();
+        product_.scale = io::quantise(product_.images, bake_.pixel);
+        if (product_.scale != 1)
+            report_.warnings.push_back("values exceed what the pixel format holds; they are stored times " +
+                                       number_text(product_.scale) + " (\"scale\" in the record)");
+    }
+
+    void certify() {
+        const auto context = this->context(Stage::certify);
+        certificate_ = bake_.baker->certify(bake_.json, inputs_, product_, *context);
+        report_.certify_evaluations = context->counts();
+    }
+
+    void encode() {
+        const io::FileInfo info{bake_.pixel, metadata(job_, bake_, product_)};
+        for (const Image& image : product_.images) {
+            const fs::path file = files_.empty() ? fs::path(bake_.file) : named_file(image.name);
+            const std::vector<std::byte> bytes = io::encode(bake_.format, image, info);
+            outputs_.push_back({file, io::hash_bytes(bytes.data(), bytes.size()), bytes.size()});
+            files_.push_back(std::move(bytes));
+        }
+    }
+
+    /// "X_<name>.ext"; refused if it is another bake's own product.
+    fs::path named_file(const std::string& image_name) const {
+        const fs::path first(bake_.file);
+        const fs::path file = first.stem().string() + "_" + image_name + first.extension().string();
+        for (const job::Bake& other : job_.bakes)
+            if (other.file == file)
+                throw Error(ExitCode::unwritable_output, file.string(),
+                            "is the product of bake \"" + other.name + "\" too; rename one of the two");
+        return file;
+    }
+
+    void write() {
+        report_.entry =
+            entry(job_, bake_, inputs_, product_, certificate_, report_.bake_evaluations, outputs_);
+        report_.writes.clear();
+        for (std::size_t i = 0; i < files_.size(); ++i) {
+            const fs::path file = job_.output / outputs_[i].file;
+            write_atomically(file, files_[i]);
+            report_.writes.push_back(file);
+        }
+        if (job_.record == job::Record::manifest) return;
+        const fs::path sidecar = sidecar_file(job_, bake_);
+        write_atomically(sidecar, job::to_text(report_.entry));
+        report_.writes.push_back(sidecar);
+    }
+
+    void check_accuracy() {
+        if (!bake_.accuracy.stated()) return;
+        const auto& headline = certificate_.headline;
+        if (headline && headline->value <= bake_.accuracy.max_error) return;
+        report_.code = ExitCode::accuracy_missed;
+        report_.error = headline ? headline->metric + " is " + number_text(headline->value) +
+                                       ", above the max_error of " + number_text(bake_.accuracy.max_error) +
+                                       " that was stated"
+                                 : "its certificate has no figure to hold max_error against";
+        report_.error += "; the product was written all the same";
+    }
+
+    const job::Job& job_;
+    const job::Bake& bake_;
+    const Options& options_;
+    BakeReport report_;
+    Inputs inputs_;
+    Product product_;
+    Certificate certificate_;
+    std::vector<Output> outputs_;
+    std::vector<std::vector<std::byte>> files_;
+};
+
+}  // namespace
+
+BakeReport plan_bake(const job::Job& job, const job::Bake& bake) {
+    BakeReport report;
+    report.job = &job;
+    report.bake = &bake;
+    for (const job::Source& source : bake.sources)
+        if (!source.file.empty()) report.reads.push_back(source.file);
+    report.writes.push_back((job.output / bake.file).lexically_normal());
+    if (job.record == job::Record::sidecar) report.writes.push_back(sidecar_file(job, bake));
+    return report;
+}
+
+BakeReport run_bake(const job::Job& job, const job::Bake& bake, const Options& options) {
+    return BakeRun(job, bake, options).run();
+}
+
+}  // namespace pbrbake::run

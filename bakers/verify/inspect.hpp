@@ -1,0 +1,44 @@
+#pragma once
+// What a product holds.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bakers/baker.hpp"
+
+namespace pbrbake::verify {
+
+/// One channel of one level. NaN and infinite texels are counted and left out of the rest.
+struct ChannelSummary {
+    double lowest = 0;
+    double highest = 0;
+    double mean =
+        0;  ///< over the sphere for a cube map (each texel weighs its solid angle), else over texels
+    double energy = 0;  ///< integral over the sphere, value x sr; 0 for a picture
+    std::uint64_t non_finite = 0;
+};
+
+struct LevelSummary {
+    int width = 0, height = 0;
+    std::vector<ChannelSummary> channels;
+};
+
+struct Inspection {
+    std::string format, pixel;
+    int faces = 1;
+    std::vector<std::string> channels;
+    double scale = 1;  ///< of the file; the summaries are divided by it
+    std::string units;
+    std::vector<LevelSummary> levels;
+    Json record;  ///< the product's entry in X.ext.json or manifest.json beside it; null if neither lists it
+};
+
+/// Reads a product and its record. Throws Error(unreadable_input).
+Inspection inspect(const std::filesystem::path& file);
+
+/// The same as a document.
+Json inspection_json(const Inspection& inspection);
+
+}  // namespace pbrbake::verify

@@ -1,0 +1,93 @@
+// pbrbake inspect FILE: what a product holds.
+
+#include "bakers/verify/inspect.hpp"
+
+#include <cstdio>
+
+#include "bakers/job/json_text.hpp"
+#include "cli/options.hpp"
+
+namespace pbrbake::cli {
+namespace {
+
+void print_levels(const verify::Inspection& inspection) {
+    const bool is_cube = inspection.faces == 6;
+    std::printf("%-6s %-11s %-8s %11s %11s %11s%s\n", "level", "size", "channel", "min", "max", "mean",
+                is_cube ? "      energy" : "");
+    for (std::size_t i = 0; i < inspection.levels.size(); ++i) {
+        const verify::LevelSummary& level = inspection.levels[i];
+        const std::string size = std::to_string(level.width) + "x" + std::to_string(level.height);
+        for (std::size_t c = 0; c < level.channels.size(); ++c) {
+            const verify::ChannelSummary& channel = level.channels[c];
+            std::printf("%-6s %-11s %-8s %11.5g %11.5g %11.5g", c == 0 ? std::to_string(i).c_str() : "",
+                        c == 0 ? size.c_str() : "", inspection.channels[c].c_str(), channel.lowest,
+                        channel.highest, channel.mean);
+            if (is_cube) std::printf(" %11.5g", channel.energy);
+            if (channel.non_finite > 0)
+                std::printf("  %llu not finite", static_cast<unsigned long long>(channel.non_finite));
+            std::printf("\n");
+        }
+    }
+}
+
+void print_figure(const char* title, const Json& figure) {
+    std::printf("%-12s%s %.3g (%s)", title, figure["metric"].get<std::string>().c_str(),
+                figure["value"].get<double>(), figure["evidence"].get<std::string>().c_str());
+    if (figure.contains("level")) std::printf(", level %d", figure["level"].get<int>());
+    if (figure.contains("interval"))
+        std::printf(", 95 %% within %.3g to %.3g", figure["interval"][0].get<double>(),
+                    figure["interval"][1].get<double>());
+    std::printf("\n");
+}
+
+void print_certificate(const Json& record) {
+    if (!record.is_object() || !record.contains("certificate")) {
+        std::printf("certificate none: no record beside the file lists it\n");
+        return;
+    }
+    try {
+        const Json& certificate = record["certificate"];
+        if (certificate.contains("headline")) print_figure("headline", certificate["headline"]);
+        for (const Json& figure : certificate.at("figures")) print_figure("", figure);
+        for (const auto& [effect, count] : certificate.at("work").items())
+            std::printf("%-12s%s %llu\n", "work", effect.c_str(),
+                        static_cast<unsigned long long>(count.get<std::uint64_t>()));
+    } catch (const Json::exception&) {
+        std::printf("certificate unreadable: the record is not one of this version\n");
+    }
+}
+
+void print(const std::string& file, const verify::Inspection& inspection) {
+    std::printf("%s: %s, %s, %s, %zu level%s, scale %g, %s\n\n", file.c_str(), inspection.format.c_str(),
+                inspection.faces == 6 ? "cube map" : "picture", inspection.pixel.c_str(),
+                inspection.levels.size(), inspection.levels.size() == 1 ? "" : "s", inspection.scale,
+                inspection.units.c_str());
+    print_levels(inspection);
+    std::printf("\n");
+    print_certificate(inspection.record);
+}
+
+}  // namespace
+
+ExitCode inspect_command(const Arguments& arguments) {
+    Options options(
+        "inspect", "[OPTIONS] FILE",
+        "Shows what a product holds: size, range and mean of every level, its energy if it is a cube map "
+        "(the integral over the sphere), and the certificate in the record beside it. Values are divided "
+        "by the file's scale.");
+    options.add_positional({{"file", "FILE", "An EXR or KTX2 file."}});
+    options.add({"output", {{"json", "", "Prints JSON.", true}}});
+    const auto given = options.parse(arguments);
+    if (!given) return ExitCode::done;
+    const auto file = given->find("file");
+    if (!file) throw Error(ExitCode::usage, "FILE", "missing; usage: pbrbake inspect [OPTIONS] FILE");
+
+    const verify::Inspection inspection = verify::inspect(*file);
+    if (given->is_on("json"))
+        std::printf("%s", job::to_text(verify::inspection_json(inspection)).c_str());
+    else
+        print(*file, inspection);
+    return ExitCode::done;
+}
+
+}  // namespace pbrbake::cli
