@@ -16,7 +16,8 @@ void check_channels(const Image& image) {
     std::set<std::string> names;
     for (const std::string& name : image.channels) {
         if (name.empty() || name.find(',') != std::string::npos || name.find('\0') != std::string::npos)
-            throw unwritable("channel name '" + name + "' can't be written: it is empty or holds a comma or NUL");
+            throw unwritable("channel name '" + name +
+                             "' can't be written: it is empty or holds a comma or NUL");
         if (!names.insert(name).second) throw unwritable("channel name '" + name + "' is there twice");
     }
 }
@@ -34,22 +35,24 @@ void check_shape(const Image& image) {
         if (l > 30 || (l > 0 && (std::max(base.width, base.height) >> l) == 0))
             throw unwritable(which + " is beyond 1 x 1");
         if (level.width != std::max(1, base.width >> l) || level.height != std::max(1, base.height >> l))
-            throw unwritable(which + " is " + std::to_string(level.width) + " x " + std::to_string(level.height) +
-                             "; levels halve, rounding down");
+            throw unwritable(which + " is " + std::to_string(level.width) + " x " +
+                             std::to_string(level.height) + "; levels halve, rounding down");
         const std::size_t count = static_cast<std::size_t>(image.faces) * level.width * level.height;
         if (level.texels.size() != count * image.channels.size())
-            throw unwritable(which + " holds " + std::to_string(level.texels.size()) + " numbers instead of " +
-                             std::to_string(count * image.channels.size()));
+            throw unwritable(which + " holds " + std::to_string(level.texels.size()) +
+                             " numbers instead of " + std::to_string(count * image.channels.size()));
     }
 }
 
 void check_info(std::string_view format, const FileInfo& info) {
     if (info.pixel != PixelType::half && info.pixel != PixelType::float32)
-        throw unwritable(std::string(format) + " is written with pixel type half or float; unorm16 and unorm8 can't be");
+        throw unwritable(std::string(format) +
+                         " is written with pixel type half or float; unorm16 and unorm8 can't be");
     for (const auto& [key, value] : info.metadata) {
         if (key.empty() || key.size() > 255 || key.find('\0') != std::string::npos ||
             value.find('\0') != std::string::npos)
-            throw unwritable("metadata '" + key + "' can't be written: keys have 1 to 255 bytes, and nothing holds NUL");
+            throw unwritable("metadata '" + key +
+                             "' can't be written: keys have 1 to 255 bytes, and nothing holds NUL");
         if (key == kLevelsKey || key == kChannelsKey) throw unwritable("metadata '" + key + "' is io's own");
     }
 }
@@ -81,8 +84,8 @@ ReadBack read_product(const std::filesystem::path& path) {
 
 std::vector<std::byte> encode_png8(int width, int height, const std::vector<std::uint8_t>& rgb) {
     if (width < 1 || height < 1 || rgb.size() != static_cast<std::size_t>(width) * height * 3)
-        throw unwritable("a PNG of " + std::to_string(width) + " x " + std::to_string(height) + " can't be made of " +
-                         std::to_string(rgb.size()) + " bytes");
+        throw unwritable("a PNG of " + std::to_string(width) + " x " + std::to_string(height) +
+                         " can't be made of " + std::to_string(rgb.size()) + " bytes");
     std::vector<std::byte> file;
     std::string error;
     if (!oiio_module().write_png8(width, height, rgb.data(), file, error)) throw unwritable("PNG: " + error);

@@ -17,6 +17,8 @@ std::vector<std::byte> encode_ktx2(const Image& image, const FileInfo& info);
 ReadBack read_exr_product(Bytes file, const std::string& where);
 ReadBack read_ktx2_product(Bytes file, const std::string& where);
 
-inline Error unwritable(std::string message) { return Error(ExitCode::unwritable_output, "", std::move(message)); }
+inline Error unwritable(std::string message) {
+    return Error(ExitCode::unwritable_output, "", std::move(message));
+}
 
 }  // namespace pbrbake::io

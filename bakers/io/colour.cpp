@@ -36,7 +36,7 @@ constexpr std::array kNamed{
     Named{"adobergb", Curve::power, Gamut::adobe_rgb, 2.19921875},
 };
 
-constexpr std::array kGamuts{Gamut::rec709, Gamut::ap1,    Gamut::ap0,
+constexpr std::array kGamuts{Gamut::rec709,  Gamut::ap1,    Gamut::ap0,
                              Gamut::rec2020, Gamut::p3_d65, Gamut::adobe_rgb};
 
 double distance(const std::array<double, 2>& a, const std::array<double, 2>& b) {
@@ -53,13 +53,19 @@ double distance(const Chromaticities& a, const Chromaticities& b) {
 
 const Chromaticities& chromaticities_of(Gamut gamut) {
     switch (gamut) {
-        case Gamut::ap1: return kAp1;
-        case Gamut::ap0: return kAp0;
-        case Gamut::rec2020: return kRec2020;
-        case Gamut::p3_d65: return kP3D65;
-        case Gamut::adobe_rgb: return kAdobeRgb;
+        case Gamut::ap1:
+            return kAp1;
+        case Gamut::ap0:
+            return kAp0;
+        case Gamut::rec2020:
+            return kRec2020;
+        case Gamut::p3_d65:
+            return kP3D65;
+        case Gamut::adobe_rgb:
+            return kAdobeRgb;
         case Gamut::rec709:
-        case Gamut::custom: break;
+        case Gamut::custom:
+            break;
     }
     return kRec709;
 }
@@ -104,14 +110,16 @@ Encoding linear_with(const Chromaticities& primaries, const std::string& where) 
     bool usable = true;
     for (const auto* xy : {&primaries.red, &primaries.green, &primaries.blue, &primaries.white})
         usable = usable && std::abs((*xy)[0]) < 8 && std::abs((*xy)[1]) < 8;  // false for NaN
-    usable = usable && primaries.white[0] > 0 && primaries.white[1] > 0 && primaries.white[0] + primaries.white[1] < 1;
+    usable = usable && primaries.white[0] > 0 && primaries.white[1] > 0 &&
+             primaries.white[0] + primaries.white[1] < 1;
     if (usable) {
         const double area = (primaries.green[0] - primaries.red[0]) * (primaries.blue[1] - primaries.red[1]) -
                             (primaries.green[1] - primaries.red[1]) * (primaries.blue[0] - primaries.red[0]);
         usable = std::abs(area) > 1e-6;
     }
     if (!usable)
-        throw unreadable(where, "its chromaticities span no gamut; state the bake's colour_space to overrule them");
+        throw unreadable(where,
+                         "its chromaticities span no gamut; state the bake's colour_space to overrule them");
     return {Curve::linear, Gamut::custom, 1, primaries};
 }
 

@@ -13,11 +13,12 @@ namespace pbrbake::io {
 /// The encoding that a name of colour_spaces() stands for; nothing for "auto", "raw" and unknown names.
 std::optional<Encoding> encoding_named(std::string_view name);
 
-/// The name of an encoding: one of colour_spaces(), "g1.95_p3d65" of an unnamed power curve, or "chromaticities".
+/// The name of an encoding: one of colour_spaces(), "g1.95_p3d65" of an unnamed power curve, or
+/// "chromaticities".
 std::string name_of(const Encoding& encoding);
 
-/// The linear encoding with these primaries: a named gamut's when all lie within 5e-4 of it, else Gamut::custom.
-/// Throws Error(unreadable_input) on `where` for primaries that span no gamut.
+/// The linear encoding with these primaries: a named gamut's when all lie within 5e-4 of it, else
+/// Gamut::custom. Throws Error(unreadable_input) on `where` for primaries that span no gamut.
 Encoding linear_with(const Chromaticities& primaries, const std::string& where);
 
 /// The gamut of a working space, nothing for names that are none.

@@ -12,7 +12,7 @@
 namespace pbrbake::io {
 
 struct Decoded {
-    int width = 0;   ///< of a face
+    int width = 0;  ///< of a face
     int height = 0;
     int faces = 1;
     std::vector<float> rgb;  ///< faces, rows, texels, R G B
@@ -29,7 +29,8 @@ Decoded decode_exr(Bytes file, const std::string& where, const ReadLimits& limit
 enum class ForeignFormat { hdr, png, tiff, targa, jpeg };
 Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& where, const ReadLimits& limits);
 
-/// Throws Error(unreadable_input) unless width x height texels of `bytes_per_texel` in memory are within the limits.
+/// Throws Error(unreadable_input) unless width x height texels of `bytes_per_texel` in memory are within the
+/// limits.
 void check_limits(std::int64_t width, std::int64_t height, double bytes_per_texel, const std::string& where,
                   const ReadLimits& limits);
 

@@ -1,5 +1,6 @@
 #pragma once
-// How a file's numbers become light: a transfer curve, then a gamut. Plain data, shared with the colour module.
+// How a file's numbers become light: a transfer curve, then a gamut. Plain data, shared with the colour
+// module.
 
 #include <array>
 

@@ -11,7 +11,8 @@ namespace {
 using Imath::V2f;
 using Imath::V3f;
 
-/// Our faces (image.hpp): the direction of the face's middle, and of growing s (x) and t (y), as OpenGL samples them.
+/// Our faces (image.hpp): the direction of the face's middle, and of growing s (x) and t (y), as OpenGL
+/// samples them.
 struct Axes {
     V3f middle, s, t;
 };
@@ -42,7 +43,8 @@ ExrFace exr_face(int face, int size) {
     const V2f corner = place(-1, -1), right = place(1, -1) - corner, down = place(-1, 1) - corner;
     // Scaled from 2 texels a side to `size`.
     const auto index = [&](float x, float y) {
-        return static_cast<std::ptrdiff_t>(std::lround(y)) * size + static_cast<std::ptrdiff_t>(std::lround(x));
+        return static_cast<std::ptrdiff_t>(std::lround(y)) * size +
+               static_cast<std::ptrdiff_t>(std::lround(x));
     };
     const float last = static_cast<float>(size - 1);
     const float row = corner.y - static_cast<float>(2 * face);  // 0 or 1 inside the face

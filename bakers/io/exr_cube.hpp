@@ -5,11 +5,13 @@
 
 namespace pbrbake::io {
 
-/// Where texel (x, y) of one of our faces lies in the picture: origin + x * along_x + y * along_y, as texel indices
-/// into the n x 6n picture. A permutation: texel centres stay texel centres.
+/// Where texel (x, y) of one of our faces lies in the picture: origin + x * along_x + y * along_y, as texel
+/// indices into the n x 6n picture. A permutation: texel centres stay texel centres.
 struct ExrFace {
     std::ptrdiff_t origin = 0, along_x = 0, along_y = 0;
-    std::size_t at(int x, int y) const { return static_cast<std::size_t>(origin + along_x * x + along_y * y); }
+    std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(origin + along_x * x + along_y * y);
+    }
 };
 
 /// `face`: 0-5 for +X -X +Y -Y +Z -Z, in our and in OpenEXR's order. `size` >= 1.

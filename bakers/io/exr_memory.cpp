@@ -18,7 +18,8 @@ bool ExrInput::read(char out[], int count) {
 void ExrOutput::write(const char in[], int count) {
     const auto size = static_cast<std::size_t>(count);
     if (position_ + size > file_.size()) {
-        if (position_ + size > file_.capacity()) file_.reserve(std::max(file_.capacity() * 2, position_ + size));
+        if (position_ + size > file_.capacity())
+            file_.reserve(std::max(file_.capacity() * 2, position_ + size));
         file_.resize(position_ + size);
     }
     std::memcpy(file_.data() + position_, in, size);

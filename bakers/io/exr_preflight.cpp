@@ -52,7 +52,8 @@ class Walk {
 
   private:
     void need(std::size_t size) const {
-        if (size > file_.size() - at_) throw unreadable(where_, "is truncated: its header runs past the file's end");
+        if (size > file_.size() - at_)
+            throw unreadable(where_, "is truncated: its header runs past the file's end");
     }
     Bytes file_;
     const std::string& where_;
@@ -114,33 +115,43 @@ std::optional<Part> next_part(Walk& walk, const std::string& where) {
 double scanlines_in_chunk(int compression) {
     switch (compression) {
         case 3:  // ZIP
-        case 5: return 16;  // PXR24
-        case 4:  // PIZ
-        case 6:  // B44
-        case 7:  // B44A
-        case 8: return 32;  // DWAA
-        case 9: return 256;  // DWAB
-        default: return 1;
+        case 5:
+            return 16;  // PXR24
+        case 4:         // PIZ
+        case 6:         // B44
+        case 7:         // B44A
+        case 8:
+            return 32;  // DWAA
+        case 9:
+            return 256;  // DWAB
+        default:
+            return 1;
     }
 }
 
-/// The largest ratio of raw to stored bytes, 0 where none is known. RLE: two bytes a run of at most 128. ZIP, ZIPS:
-/// deflate's 1032; PXR24 first drops a byte of every float's four.
+/// The largest ratio of raw to stored bytes, 0 where none is known. RLE: two bytes a run of at most 128. ZIP,
+/// ZIPS: deflate's 1032; PXR24 first drops a byte of every float's four.
 double best_ratio(int compression) {
     switch (compression) {
-        case 0: return 1;
-        case 1: return 64;
+        case 0:
+            return 1;
+        case 1:
+            return 64;
         case 2:
-        case 3: return 1032;
-        case 5: return 1032 * 4 / 3.;
-        default: return 0;
+        case 3:
+            return 1032;
+        case 5:
+            return 1032 * 4 / 3.;
+        default:
+            return 0;
     }
 }
 
 double chunk_count(const Part& part) {
     const double w = static_cast<double>(part.width), h = static_cast<double>(part.height);
     if (!part.tiles) return std::ceil(h / scanlines_in_chunk(part.compression));
-    // Of level 0; further levels take at most three times as many again, so the bound holds memory all the same.
+    // Of level 0; further levels take at most three times as many again, so the bound holds memory all the
+    // same.
     return std::ceil(w / part.tiles->width) * std::ceil(h / part.tiles->height);
 }
 
@@ -159,7 +170,8 @@ void check_part(const Part& part, Bytes file, const std::string& where, const Re
                                         std::to_string(part.tiles->height) + " texels");
     }
     double least = chunk_count(part) * kLeastChunkBytes;
-    if (const double ratio = best_ratio(part.compression); ratio > 0) least = std::max(least, raw_bytes / ratio);
+    if (const double ratio = best_ratio(part.compression); ratio > 0)
+        least = std::max(least, raw_bytes / ratio);
     if (least > size)
         throw unreadable(where, "claims " + std::to_string(part.width) + " x " + std::to_string(part.height) +
                                     " texels, which can't be in the file's " + std::to_string(file.size()) +
@@ -174,11 +186,13 @@ void preflight_exr(Bytes file, const std::string& where, const ReadLimits& limit
     const auto version = walk.number<std::uint32_t>();
     if ((version & 0xFF) != 2) throw unreadable(where, "has EXR version " + std::to_string(version & 0xFF));
     const bool multi_part = version & kMultiPartFlag;
-    if (!multi_part && (version & kNonImageFlag)) throw unreadable(where, "holds deep pixels, which are not read");
+    if (!multi_part && (version & kNonImageFlag))
+        throw unreadable(where, "holds deep pixels, which are not read");
 
     bool first = true;
     while (const auto part = next_part(walk, where)) {
-        if (first && part->type.starts_with("deep")) throw unreadable(where, "holds deep pixels, which are not read");
+        if (first && part->type.starts_with("deep"))
+            throw unreadable(where, "holds deep pixels, which are not read");
         if (!multi_part && (version & kTiledFlag) && !part->tiles)
             throw unreadable(where, "is tiled but states no tile size");
         check_part(*part, file, where, limits);

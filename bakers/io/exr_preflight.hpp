@@ -3,13 +3,14 @@
 
 #include <string>
 
-#include "bakers/io/io.hpp"
 #include "bakers/io/file_bytes.hpp"
+#include "bakers/io/io.hpp"
 
 namespace pbrbake::io {
 
-/// Throws Error(unreadable_input) for headers that end early, attributes longer than the file, sides or tables over the
-/// limits, and pictures that can't fit into the file's bytes at their compression's best ratio.
+/// Throws Error(unreadable_input) for headers that end early, attributes longer than the file, sides or
+/// tables over the limits, and pictures that can't fit into the file's bytes at their compression's best
+/// ratio.
 void preflight_exr(Bytes file, const std::string& where, const ReadLimits& limits);
 
 }  // namespace pbrbake::io

@@ -22,7 +22,8 @@ inline Error unreadable(const std::string& where, std::string message) {
     return Error(ExitCode::unreadable_input, where, std::move(message));
 }
 
-/// The file's bytes. Throws Error(unreadable_input) for what is absent, not a regular file, or longer than `max_bytes`.
+/// The file's bytes. Throws Error(unreadable_input) for what is absent, not a regular file, or longer than
+/// `max_bytes`.
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
 /// The little-endian T at `offset`, which must be inside.

@@ -28,8 +28,9 @@ int byte_at(Bytes file, std::size_t offset) {
     return offset < file.size() ? std::to_integer<int>(file[offset]) : 0;
 }
 
-/// Flat RGBE is 4 bytes a texel. Run-length coding, of widths 8 to 32,767 only, takes 4 bytes a row and 2 bytes a run
-/// of up to 127 in each of four channels (Ward, "Real Pixels", Graphics Gems II, 1991; Radiance's color.c).
+/// Flat RGBE is 4 bytes a texel. Run-length coding, of widths 8 to 32,767 only, takes 4 bytes a row and 2
+/// bytes a run of up to 127 in each of four channels (Ward, "Real Pixels", Graphics Gems II, 1991; Radiance's
+/// color.c).
 double least_hdr_bytes(const PictureSpec& spec) {
     const double flat = 4. * spec.width;
     const double coded = 4 + 4 * 2 * std::ceil(spec.width / 127.);
@@ -37,7 +38,8 @@ double least_hdr_bytes(const PictureSpec& spec) {
     return spec.height * (may_be_coded ? std::min(flat, coded) : flat);
 }
 
-/// Image types 9-11 are run-length coded: a packet of up to 128 texels takes one byte and one texel (TGA 2.0, p. 24).
+/// Image types 9-11 are run-length coded: a packet of up to 128 texels takes one byte and one texel (TGA 2.0,
+/// p. 24).
 double least_targa_bytes(Bytes file, double texels) {
     const double texel_bytes = std::max(1., std::ceil(byte_at(file, 16) / 8.));
     const bool coded = byte_at(file, 2) >= 9;
@@ -45,15 +47,16 @@ double least_targa_bytes(Bytes file, double texels) {
 }
 
 double least_tiff_bytes(const PictureSpec& spec, double raw_bytes) {
-    if (spec.compression == "none") return raw_bytes / 16;  // samples of 1, 2 or 4 bits are reported as bytes or words
+    if (spec.compression == "none")
+        return raw_bytes / 16;  // samples of 1, 2 or 4 bits are reported as bytes or words
     if (spec.compression == "zip") return raw_bytes / 16 / kDeflateRatio;
     if (spec.compression == "lzw") return raw_bytes / 16 / kLzwRatio;
     if (spec.compression == "packbits") return raw_bytes / 16 / kPackBitsRatio;
     return 0;
 }
 
-/// Every 8x8 block of the full-resolution component takes at least one bit when Huffman-coded (ITU-T T.81, F.1.2 and
-/// G.1.2); arithmetic coding (SOF9 and up) has no such bound.
+/// Every 8x8 block of the full-resolution component takes at least one bit when Huffman-coded (ITU-T T.81,
+/// F.1.2 and G.1.2); arithmetic coding (SOF9 and up) has no such bound.
 double least_jpeg_bytes(Bytes file, double texels) {
     for (std::size_t at = 2; at + 4 <= file.size();) {
         const int marker = byte_at(file, at + 1);
@@ -81,12 +84,17 @@ double least_bytes(ForeignFormat format, Bytes file, const PictureSpec& spec) {
     const double texels = static_cast<double>(spec.width) * spec.height;
     const double raw_bytes = texels * spec.channels * spec.bytes_per_channel;
     switch (format) {
-        case ForeignFormat::hdr: return least_hdr_bytes(spec);
+        case ForeignFormat::hdr:
+            return least_hdr_bytes(spec);
         // A PNG's samples are of at least 1 bit where OpenImageIO reports a byte.
-        case ForeignFormat::png: return texels / 8 / kDeflateRatio;
-        case ForeignFormat::tiff: return least_tiff_bytes(spec, raw_bytes);
-        case ForeignFormat::targa: return least_targa_bytes(file, texels);
-        case ForeignFormat::jpeg: return least_jpeg_bytes(file, texels);
+        case ForeignFormat::png:
+            return texels / 8 / kDeflateRatio;
+        case ForeignFormat::tiff:
+            return least_tiff_bytes(spec, raw_bytes);
+        case ForeignFormat::targa:
+            return least_targa_bytes(file, texels);
+        case ForeignFormat::jpeg:
+            return least_jpeg_bytes(file, texels);
     }
     return 0;
 }
@@ -104,7 +112,8 @@ std::optional<Encoding> png_encoding(Bytes file, const std::string& where) {
         if (type == "sRGB") srgb = true;
         if (type == "gAMA" && size == 4 && field(0) > 0) gamma = 1 / field(0);
         if (type == "cHRM" && size == 32)
-            primaries = {{field(2), field(3)}, {field(4), field(5)}, {field(6), field(7)}, {field(0), field(1)}};
+            primaries = {
+                {field(2), field(3)}, {field(4), field(5)}, {field(6), field(7)}, {field(0), field(1)}};
         at += 12 + size;
     }
     if (srgb) return Encoding{Curve::srgb, Gamut::rec709, 1, {}};
@@ -115,6 +124,16 @@ std::optional<Encoding> png_encoding(Bytes file, const std::string& where) {
         encoding.gamma = gamma;
     }
     return encoding;
+}
+
+bool png_is_complete(Bytes file) {
+    for (std::size_t at = 8; at + 12 <= file.size();) {
+        const std::size_t size = big_endian(file, at, 4);
+        if (size > file.size() - at - 12) return false;
+        if (text_at(file, at + 4, 4) == "IEND") return true;
+        at += 12 + size;
+    }
+    return false;
 }
 
 bool jpeg_is_complete(Bytes file) {

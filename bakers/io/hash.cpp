@@ -34,7 +34,8 @@ std::string hash_file(const std::filesystem::path& path) {
     const std::string where = path.string();
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(where.c_str(), "rb"), &std::fclose);
     if (!file) throw unreadable(where, std::generic_category().message(errno));
-    const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), &XXH3_freeState);
+    const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
+                                                                                &XXH3_freeState);
     XXH3_128bits_reset(state.get());
     std::vector<std::byte> chunk(std::size_t{1} << 20);
     while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get()))

@@ -27,9 +27,11 @@ struct ReadRequest {
     ReadLimits limits = {};
 };
 
-/// Reads an equirect (HDR, EXR, PNG, TIFF, TGA, JPEG) or a cube map (EXR with an envmap attribute), linear, in the
-/// working space, repaired (see Repairs). Grey is spread to RGB, alpha is dropped.
-/// Throws Error(unreadable_input) naming the file for: absent, unknown, truncated, lying or oversized files.
+/// Reads an equirect (HDR, EXR, PNG, TIFF, TGA, JPEG) or a cube map (EXR with an envmap attribute), linear,
+/// in the working space, repaired (see Repairs). Grey is spread to RGB, alpha is dropped, Exif orientation is
+/// applied. An EXR's whiteLuminance makes the values cd/m^2; a scaled product of ours is unscaled.
+/// Throws Error(unreadable_input) naming the file for: absent, unknown, truncated, lying or oversized files,
+/// and Error(invalid_job) for colour spaces that don't exist.
 SourceImage read_source(const ReadRequest& request);
 
 /// Colour spaces that `colour_space` may name, "auto" first.
@@ -41,15 +43,21 @@ struct FileInfo {
     std::map<std::string, std::string> metadata;  ///< "pbrbake:scale" -> "0.5"; strings, sorted
 };
 
-/// A whole file in memory. `format` is "exr" or "ktx2". Throws Error(unwritable_output) for what a format can't hold.
-/// Bytes depend on nothing but the arguments. Texels must already be representable in `info.pixel` (see quantise).
+/// A whole file in memory. `format` is "exr" or "ktx2" (up to 4 channels; 3 are stored as 4, the last one 1).
+/// Pixel types are half and float32. Levels halve, rounding down; an EXR cube map's without remainder.
+/// "pbrbake:working_space" (lin_rec709 | acescg), "pbrbake:units" and "pbrbake:scale" of the metadata also
+/// set what the containers have for primaries and luminance; "pbrbake:levels" and "pbrbake:channels" are io's
+/// own. Throws Error(unwritable_output) for what a format can't hold. Bytes depend on nothing but the
+/// arguments. Texels must already be representable in `info.pixel` (see quantise).
 std::vector<std::byte> encode(std::string_view format, const Image& image, const FileInfo& info);
 
 /// Formats encode() writes.
 const std::vector<std::string>& output_formats();
 
-/// Rounds every texel to what `pixel` can store, after multiplying by a power of two chosen so that nothing overflows;
-/// returns that scale (1 unless the peak exceeds the format). NaN stays NaN; the caller has a bug then.
+/// Rounds every texel to what `pixel` can store (half: to nearest even), after multiplying by one power of
+/// two, the largest 2^-k, k >= 0, with which the peak of all images fits; returns it. Half and float keep
+/// signs; the unorm types end at 1 and clip negatives to 0. NaN and Inf stay in half and float; the caller
+/// has a bug then.
 double quantise(std::vector<Image>& images, PixelType pixel);
 
 /// A product read back: our own EXR and KTX2 files (all faces and levels), and plain 2D EXR.

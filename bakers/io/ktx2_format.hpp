@@ -1,6 +1,7 @@
 #pragma once
 // The part of KTX 2.0 that we write: uncompressed float textures, 2D and cube.
-// Section titles refer to the KTX File Format Specification 2.0, and KDF to the Khronos Data Format Specification 1.3.
+// Section titles refer to the KTX File Format Specification 2.0, and KDF to the Khronos Data Format
+// Specification 1.3.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace pbrbake::io::ktx2 {
 
-inline constexpr std::array<char, 12> kIdentifier{'\xAB', 'K',  'T',  'X',  ' ',    '2',
+inline constexpr std::array<char, 12> kIdentifier{'\xAB', 'K',    'T',  'X',  ' ',    '2',
                                                   '0',    '\xBB', '\r', '\n', '\x1A', '\n'};
 
 /// The fixed part of the file, "File Structure": identifier, header and index. The level index follows it.

@@ -14,20 +14,26 @@ namespace pbrbake::io {
 namespace {
 
 /// [offset, offset + size) of the file.
-Bytes section(Bytes file, std::uint64_t offset, std::uint64_t size, const char* what, const std::string& where) {
+Bytes section(Bytes file, std::uint64_t offset, std::uint64_t size, const char* what,
+              const std::string& where) {
     if (offset > file.size() || size > file.size() - offset)
-        throw unreadable(where, std::string("is truncated or malformed: its ") + what + " runs past the file's end");
+        throw unreadable(where,
+                         std::string("is truncated or malformed: its ") + what + " runs past the file's end");
     return file.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));
 }
 
 ktx2::Format check_header(const ktx2::Header& header, const std::string& where) {
-    const auto refuse = [&](const std::string& what) { throw unreadable(where, what + ": not a KTX2 file of ours"); };
+    const auto refuse = [&](const std::string& what) {
+        throw unreadable(where, what + ": not a KTX2 file of ours");
+    };
     const auto format = ktx2::format_of(header.vk_format);
     if (!format) refuse("has vkFormat " + std::to_string(header.vk_format));
-    if (header.type_size != format->component_bytes()) refuse("has typeSize " + std::to_string(header.type_size));
+    if (header.type_size != format->component_bytes())
+        refuse("has typeSize " + std::to_string(header.type_size));
     if (header.depth != 0 || header.layers != 0) refuse("is volumetric or an array");
     if (header.faces != 1 && header.faces != 6) refuse("has " + std::to_string(header.faces) + " faces");
-    if (header.supercompression != 0 || header.sgd_size != 0 || header.sgd_offset != 0) refuse("is supercompressed");
+    if (header.supercompression != 0 || header.sgd_size != 0 || header.sgd_offset != 0)
+        refuse("is supercompressed");
     check_limits(header.width, header.height, header.faces * 4. * format->channels, where, {});
     if (header.faces == 6 && header.width != header.height) refuse("has faces that are not square");
     const auto most = static_cast<std::uint32_t>(std::bit_width(std::max(header.width, header.height)));
@@ -65,8 +71,8 @@ std::vector<std::string> take_channels(std::map<std::string, std::string>& entri
     std::vector<std::string> names = split_channels(entry->second);
     const auto count = static_cast<int>(names.size());
     if (count != stored && !(count == 3 && stored == 4))
-        throw unreadable(where, std::string(kChannelsKey) + " names " + std::to_string(count) + " channels; it has " +
-                                    std::to_string(stored));
+        throw unreadable(where, std::string(kChannelsKey) + " names " + std::to_string(count) +
+                                    " channels; it has " + std::to_string(stored));
     entries.erase(entry);
     return names;
 }
@@ -80,7 +86,8 @@ Level read_level(Bytes data, int width, int height, std::size_t count, std::size
         for (std::size_t c = 0; c < channels; ++c) {
             const std::size_t at = i * format.texel_bytes() + c * bytes;
             if (format.pixel == PixelType::half)
-                level.texels.push_back(static_cast<float>(half(half::FromBits, load<std::uint16_t>(data, at))));
+                level.texels.push_back(
+                    static_cast<float>(half(half::FromBits, load<std::uint16_t>(data, at))));
             else
                 level.texels.push_back(load<float>(data, at));
         }
@@ -110,13 +117,15 @@ ReadBack read_ktx2_product(Bytes file, const std::string& where) {
     back.image.faces = static_cast<int>(header.faces);
     for (std::uint32_t l = 0; l < header.levels; ++l) {
         const auto entry = load<ktx2::LevelEntry>(index, l * sizeof(ktx2::LevelEntry));
-        const std::uint32_t width = std::max(1u, header.width >> l), height = std::max(1u, header.height >> l);
+        const std::uint32_t width = std::max(1u, header.width >> l),
+                            height = std::max(1u, header.height >> l);
         const std::uint64_t count = std::uint64_t{header.faces} * width * height;
         if (entry.size != count * format.texel_bytes() || entry.uncompressed_size != entry.size)
             throw unreadable(where, "level " + std::to_string(l) + " has the wrong size");
         const Bytes data = section(file, entry.offset, entry.size, "texels", where);
         back.image.levels.push_back(read_level(data, static_cast<int>(width), static_cast<int>(height),
-                                               static_cast<std::size_t>(count), back.image.channels.size(), format));
+                                               static_cast<std::size_t>(count), back.image.channels.size(),
+                                               format));
     }
     return back;
 }

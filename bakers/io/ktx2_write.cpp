@@ -1,5 +1,5 @@
-// KTX2 products. No packaged library writes KTX2: this writer follows the specification, and tests hold it against
-// a checker of our own and a parser that isn't ours.
+// KTX2 products. No packaged library writes KTX2: this writer follows the specification, and tests hold it
+// against a checker of our own and a parser that isn't ours.
 
 #include <half.h>
 
@@ -47,8 +47,8 @@ std::uint32_t primaries_of(const Image& image, const FileInfo& info) {
     return space != info.metadata.end() && space->second == "acescg" ? 7 : 1;
 }
 
-/// The basic data format descriptor, KDF 1.3, chapter 5: RGBSDA model, linear, a sample a channel, signed float,
-/// whose black and white are -1 and 1.
+/// The basic data format descriptor, KDF 1.3, chapter 5: RGBSDA model, linear, a sample a channel, signed
+/// float, whose black and white are -1 and 1.
 std::vector<std::byte> data_format_descriptor(const ktx2::Format& format, std::uint32_t primaries) {
     constexpr std::uint32_t kVersion = 2, kModelRgbsda = 1, kTransferLinear = 1;
     constexpr std::uint32_t kFloat = 0x80, kSigned = 0x40, kAlpha = 15;
@@ -92,7 +92,8 @@ std::vector<std::byte> key_value_data(const Image& image, const FileInfo& info) 
 }
 
 /// One level's texels: faces, rows, tightly packed; missing channels become 1 (alpha).
-void put_level(const Level& level, std::size_t channels, const ktx2::Format& format, std::vector<std::byte>& file) {
+void put_level(const Level& level, std::size_t channels, const ktx2::Format& format,
+               std::vector<std::byte>& file) {
     const auto stored = static_cast<std::size_t>(format.channels);
     const std::size_t count = level.texels.size() / channels, bytes = format.component_bytes();
     const std::size_t begin = file.size();
@@ -117,8 +118,8 @@ void put_level(const Level& level, std::size_t channels, const ktx2::Format& for
 std::vector<std::byte> encode_ktx2(const Image& image, const FileInfo& info) {
     const auto format = ktx2::format_for(image.channel_count(), info.pixel);
     if (!format)
-        throw unwritable("ktx2 holds up to 4 channels; the image has " + std::to_string(image.channels.size()) +
-                         ": use exr");
+        throw unwritable("ktx2 holds up to 4 channels; the image has " +
+                         std::to_string(image.channels.size()) + ": use exr");
     const Level& base = image.levels.front();
     const std::size_t levels = image.levels.size();
     const std::vector<std::byte> dfd = data_format_descriptor(*format, primaries_of(image, info));

@@ -25,7 +25,8 @@ inline Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
 }
 
 inline double determinant(const Matrix3& m) {
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
@@ -43,13 +44,17 @@ inline Matrix3 inverse(const Matrix3& m) {
 }
 
 /// XYZ of luminance 1 at chromaticity xy; y must not be 0.
-inline Vector3 xyz_of(const std::array<double, 2>& xy) { return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]}; }
+inline Vector3 xyz_of(const std::array<double, 2>& xy) {
+    return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]};
+}
 
 inline Matrix3 diagonal(const Vector3& v) { return {{{v[0], 0, 0}, {0, v[1], 0}, {0, 0, v[2]}}}; }
 
 /// RGB to XYZ with white at luminance 1 (SMPTE RP 177-1993, section 3.3).
 inline Matrix3 rgb_to_xyz(const Chromaticities& c) {
-    const auto column = [](const std::array<double, 2>& xy) { return Vector3{xy[0], xy[1], 1 - xy[0] - xy[1]}; };
+    const auto column = [](const std::array<double, 2>& xy) {
+        return Vector3{xy[0], xy[1], 1 - xy[0] - xy[1]};
+    };
     const Vector3 r = column(c.red), g = column(c.green), b = column(c.blue);
     const Matrix3 p{{{r[0], g[0], b[0]}, {r[1], g[1], b[1]}, {r[2], g[2], b[2]}}};
     return p * diagonal(inverse(p) * xyz_of(c.white));

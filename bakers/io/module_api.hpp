@@ -1,6 +1,6 @@
 #pragma once
-// What the run-time loaded modules offer: OpenImageIO's and OpenColorIO's share of io, behind a face that names
-// neither. Nothing throws across it; a failure is `false` (or null) and a message.
+// What the run-time loaded modules offer: OpenImageIO's and OpenColorIO's share of io, behind a face that
+// names neither. Nothing throws across it; a failure is `false` (or null) and a message.
 
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +36,8 @@ class PictureReader {
     virtual const PictureSpec& spec() const noexcept = 0;
     /// Rows that a call to read_rows had best be a multiple of (a tile's height, else 1).
     virtual int row_quantum() const noexcept = 0;
-    /// Channels that read_rows returns: 3 of a colour picture, 1 of a grey one; alpha is dropped, unmultiplied.
+    /// Channels that read_rows returns: 3 of a colour picture, 1 of a grey one; alpha is dropped,
+    /// unmultiplied.
     virtual int decoded_channels() const noexcept = 0;
     /// Decodes rows [begin, end), integers as [0, 1], into (end - begin) * width * decoded_channels() floats.
     virtual bool read_rows(int begin, int end, float* texels, std::string& error) noexcept = 0;
@@ -44,8 +45,10 @@ class PictureReader {
 
 struct OiioModule {
     int abi;
-    /// `format` is OpenImageIO's name ("hdr", "png", "tiff", "targa", "jpeg"); `file` must outlive the reader.
-    std::unique_ptr<PictureReader> (*open)(const char* format, std::span<const std::byte> file, std::string& error);
+    /// `format` is OpenImageIO's name ("hdr", "png", "tiff", "targa", "jpeg"); `file` must outlive the
+    /// reader.
+    std::unique_ptr<PictureReader> (*open)(const char* format, std::span<const std::byte> file,
+                                           std::string& error);
     bool (*write_png8)(int width, int height, const std::uint8_t* rgb, std::vector<std::byte>& file,
                        std::string& error);
 };

@@ -1,8 +1,9 @@
 // OpenColorIO's share of io, as a module that is loaded when two colour spaces differ.
 //
-// OpenColorIO 2.1 has no built-in configs and no linear Rec.2020 or P3, and its own sRGB display curve is 2.5e-4 off
-// in the toe: gamuts it knows are chained from its built-in transforms, the others from matrices, and sRGB is the
-// exponent-with-linear form of IEC 61966-2-1 (gamma 2.4, offset .055), which is within 1e-6 of it everywhere.
+// OpenColorIO 2.1 has no built-in configs and no linear Rec.2020 or P3, and its own sRGB display curve
+// is 2.5e-4 off in the toe: gamuts it knows are chained from its built-in transforms, the others from
+// matrices, and sRGB is the exponent-with-linear form of IEC 61966-2-1 (gamma 2.4, offset .055), which is
+// within 1e-6 of it everywhere.
 
 #include <OpenColorIO/OpenColorIO.h>
 
@@ -41,18 +42,28 @@ void append_to_ap0(OCIO::GroupTransform& steps, Gamut gamut, const Chromaticitie
         steps.appendTransform(builtin("UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD", OCIO::TRANSFORM_DIR_INVERSE));
     };
     switch (gamut) {
-        case Gamut::ap0: break;
+        case Gamut::ap0:
+            break;
         case Gamut::ap1:
             steps.appendTransform(builtin("ACEScg_to_ACES2065-1", OCIO::TRANSFORM_DIR_FORWARD));
             break;
         case Gamut::rec709:
-            steps.appendTransform(builtin("UTILITY - ACES-AP1_to_LINEAR-REC709_BFD", OCIO::TRANSFORM_DIR_INVERSE));
+            steps.appendTransform(
+                builtin("UTILITY - ACES-AP1_to_LINEAR-REC709_BFD", OCIO::TRANSFORM_DIR_INVERSE));
             steps.appendTransform(builtin("ACEScg_to_ACES2065-1", OCIO::TRANSFORM_DIR_FORWARD));
             break;
-        case Gamut::rec2020: via_xyz(kRec2020); break;
-        case Gamut::p3_d65: via_xyz(kP3D65); break;
-        case Gamut::adobe_rgb: via_xyz(kAdobeRgb); break;
-        case Gamut::custom: via_xyz(custom); break;
+        case Gamut::rec2020:
+            via_xyz(kRec2020);
+            break;
+        case Gamut::p3_d65:
+            via_xyz(kP3D65);
+            break;
+        case Gamut::adobe_rgb:
+            via_xyz(kAdobeRgb);
+            break;
+        case Gamut::custom:
+            via_xyz(custom);
+            break;
     }
 }
 
@@ -90,7 +101,8 @@ bool convert(const Encoding& from, Gamut working, float* rgb, std::size_t texels
         config->setVersion(2, 1);
         const OCIO::ConstProcessorRcPtr processor = config->getProcessor(steps_between(from, working));
         // Lossless leaves out the fast, approximate pow.
-        const OCIO::ConstCPUProcessorRcPtr cpu = processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
+        const OCIO::ConstCPUProcessorRcPtr cpu =
+            processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
         constexpr std::size_t kRun = 4096;
         for (std::size_t begin = 0; begin < texels; begin += kRun) {
             const std::size_t count = std::min(kRun, texels - begin);

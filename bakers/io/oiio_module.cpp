@@ -37,7 +37,8 @@ class OiioReader : public PictureReader {
             return false;
         }
         OIIO::ImageSpec config;
-        config.attribute("oiio:UnassociatedAlpha", 1);  // alpha is dropped, so colour must not be multiplied by it
+        config.attribute("oiio:UnassociatedAlpha",
+                         1);  // alpha is dropped, so colour must not be multiplied by it
         input_->set_ioproxy(&proxy_);
         OIIO::ImageSpec spec;
         if (!input_->open("memory." + std::string(format), spec, config)) {
@@ -62,11 +63,10 @@ class OiioReader : public PictureReader {
     bool read_rows(int begin, int end, float* texels, std::string& error) noexcept override {
         try {
             const bool read =
-                tile_height_ > 0
-                    ? input_->read_tiles(0, 0, x_, x_ + picture_.width, y_ + begin, y_ + end, 0, 1, 0,
-                                         decoded_channels(), OIIO::TypeDesc::FLOAT, texels)
-                    : input_->read_scanlines(0, 0, y_ + begin, y_ + end, 0, 0, decoded_channels(),
-                                             OIIO::TypeDesc::FLOAT, texels);
+                tile_height_ > 0 ? input_->read_tiles(0, 0, x_, x_ + picture_.width, y_ + begin, y_ + end, 0,
+                                                      1, 0, decoded_channels(), OIIO::TypeDesc::FLOAT, texels)
+                                 : input_->read_scanlines(0, 0, y_ + begin, y_ + end, 0, 0,
+                                                          decoded_channels(), OIIO::TypeDesc::FLOAT, texels);
             // A truncated TIFF "succeeds" and only leaves an error behind.
             if (read && !input_->has_error()) return true;
             error = input_->has_error() ? input_->geterror() : "could not be decoded";
@@ -102,7 +102,8 @@ std::unique_ptr<PictureReader> open(const char* format, std::span<const std::byt
     return nullptr;
 }
 
-bool write_png8(int width, int height, const std::uint8_t* rgb, std::vector<std::byte>& file, std::string& error) {
+bool write_png8(int width, int height, const std::uint8_t* rgb, std::vector<std::byte>& file,
+                std::string& error) {
     try {
         configure_once();
         const auto output = OIIO::ImageOutput::create("png");
@@ -133,6 +134,7 @@ bool write_png8(int width, int height, const std::uint8_t* rgb, std::vector<std:
 }  // namespace pbrbake::io
 
 extern "C" __attribute__((visibility("default"))) const pbrbake::io::OiioModule* pbrbake_oiio_module() {
-    static const pbrbake::io::OiioModule table{pbrbake::io::kModuleAbi, &pbrbake::io::open, &pbrbake::io::write_png8};
+    static const pbrbake::io::OiioModule table{pbrbake::io::kModuleAbi, &pbrbake::io::open,
+                                               &pbrbake::io::write_png8};
     return &table;
 }

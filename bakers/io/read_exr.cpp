@@ -67,8 +67,9 @@ Box2i picture_window(const Imf::Header& header, bool cube, const std::string& wh
         return a.min.x <= b.min.x && a.min.y <= b.min.y && a.max.x >= b.max.x && a.max.y >= b.max.y;
     };
     if (!contains(data, display) || display.isEmpty())
-        throw unreadable(where, "holds only a part of its display window (data window != display window); an "
-                                "environment must be whole: write it uncropped");
+        throw unreadable(where,
+                         "holds only a part of its display window (data window != display window); an "
+                         "environment must be whole: write it uncropped");
     return display;
 }
 
@@ -86,9 +87,10 @@ std::vector<float> read_rgb(Imf::InputPart& part, const ChannelNames& names, con
         const int last = std::min(y + kRows - 1, window.max.y);
         Imf::FrameBuffer frame;
         for (std::size_t c = 0; c < channels; ++c)
-            frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, strip.data() + c, V2i(data.min.x, y), data_width,
-                                                    kRows, channels * sizeof(float),
-                                                    channels * sizeof(float) * static_cast<std::size_t>(data_width)));
+            frame.insert(names[c],
+                         Imf::Slice::Make(Imf::FLOAT, strip.data() + c, V2i(data.min.x, y), data_width, kRows,
+                                          channels * sizeof(float),
+                                          channels * sizeof(float) * static_cast<std::size_t>(data_width)));
         part.setFrameBuffer(frame);
         part.readPixels(y, last);
         for (int row = 0; row <= last - y; ++row) {
@@ -113,15 +115,16 @@ void unfold_cube(Decoded& decoded, const std::string& where) {
     for (int face = 0; face < 6; ++face) {
         const ExrFace map = exr_face(face, size);
         for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x, out += 3) std::copy_n(decoded.rgb.data() + map.at(x, y) * 3, 3, out);
+            for (int x = 0; x < size; ++x, out += 3)
+                std::copy_n(decoded.rgb.data() + map.at(x, y) * 3, 3, out);
     }
     decoded.rgb = std::move(faces);
     decoded.height = size;
     decoded.faces = 6;
 }
 
-/// Primaries, and what the numbers count: whiteLuminance is the cd/m² of (1, 1, 1); a product of ours that was scaled
-/// to fit its pixel type says so.
+/// Primaries, and what the numbers count: whiteLuminance is the cd/m² of (1, 1, 1); a product of ours that
+/// was scaled to fit its pixel type says so.
 void read_statements(const Imf::Header& header, const std::string& where, Decoded& decoded) {
     if (Imf::hasChromaticities(header)) {
         const Imf::Chromaticities& c = Imf::chromaticities(header);

@@ -29,14 +29,16 @@ std::vector<std::string> channel_order(const Imf::Header& header, const std::str
     std::vector<std::string> names;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
         if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
-            throw unreadable(where, std::string("channel '") + channel.name() + "' is subsampled, which is not read");
+            throw unreadable(
+                where, std::string("channel '") + channel.name() + "' is subsampled, which is not read");
         names.emplace_back(channel.name());
     }
     if (names.empty()) throw unreadable(where, "has no channels");
     if (const auto* stated = header.findTypedAttribute<Imf::StringAttribute>(kChannelsKey)) {
         const std::vector<std::string> order = split_channels(stated->value());
         if (!std::ranges::is_permutation(order, names))
-            throw unreadable(where, std::string(kChannelsKey) + " '" + stated->value() + "' doesn't name its channels");
+            throw unreadable(
+                where, std::string(kChannelsKey) + " '" + stated->value() + "' doesn't name its channels");
         return order;
     }
     const auto rank = [](const std::string& name) {
@@ -143,7 +145,8 @@ ReadBack read_exr_product(Bytes file, const std::string& where) {
         back.image.channels = channel_order(header, where);
         back.info = info_of(header);
         const Imath::Box2i window = header.dataWindow();
-        check_limits(std::int64_t{window.max.x} - window.min.x + 1, std::int64_t{window.max.y} - window.min.y + 1,
+        check_limits(std::int64_t{window.max.x} - window.min.x + 1,
+                     std::int64_t{window.max.y} - window.min.y + 1,
                      static_cast<double>(back.image.channels.size() * sizeof(float)), where, limits);
         const bool cube = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE;
         back.image.faces = cube ? 6 : 1;

@@ -14,16 +14,22 @@ namespace {
 
 const char* oiio_name(ForeignFormat format) {
     switch (format) {
-        case ForeignFormat::hdr: return "hdr";
-        case ForeignFormat::png: return "png";
-        case ForeignFormat::tiff: return "tiff";
-        case ForeignFormat::targa: return "targa";
-        case ForeignFormat::jpeg: return "jpeg";
+        case ForeignFormat::hdr:
+            return "hdr";
+        case ForeignFormat::png:
+            return "png";
+        case ForeignFormat::tiff:
+            return "tiff";
+        case ForeignFormat::targa:
+            return "targa";
+        case ForeignFormat::jpeg:
+            return "jpeg";
     }
     return "";
 }
 
-/// What the file says of its encoding: a PNG's chunks, Exif's ColorSpace, a TGA's gamma. ICC profiles are not read.
+/// What the file says of its encoding: a PNG's chunks, Exif's ColorSpace, a TGA's gamma. ICC profiles are not
+/// read.
 std::optional<Encoding> stated_encoding(ForeignFormat format, Bytes file, const std::string& where,
                                         const PictureSpec& spec) {
     if (format == ForeignFormat::png) return png_encoding(file, where);
@@ -113,14 +119,18 @@ void check_limits(std::int64_t width, std::int64_t height, double bytes_per_texe
     const std::string size = std::to_string(width) + " x " + std::to_string(height) + " texels";
     if (width < 1 || height < 1) throw unreadable(where, "claims " + size);
     if (width > limits.max_side || height > limits.max_side)
-        throw unreadable(where, "claims " + size + "; the limit is " + std::to_string(limits.max_side) + " a side");
+        throw unreadable(where,
+                         "claims " + size + "; the limit is " + std::to_string(limits.max_side) + " a side");
     const double bytes = static_cast<double>(width) * static_cast<double>(height) * bytes_per_texel;
     if (bytes > static_cast<double>(limits.max_decoded_bytes))
-        throw unreadable(where, "claims " + size + ", which take " + std::to_string(static_cast<std::uint64_t>(bytes)) +
+        throw unreadable(where, "claims " + size + ", which take " +
+                                    std::to_string(static_cast<std::uint64_t>(bytes)) +
                                     " bytes; the limit is " + std::to_string(limits.max_decoded_bytes));
 }
 
 Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& where, const ReadLimits& limits) {
+    if (format == ForeignFormat::png && !png_is_complete(file))
+        throw unreadable(where, "is truncated: its chunks don't run to IEND");
     if (format == ForeignFormat::jpeg && !jpeg_is_complete(file))
         throw unreadable(where, "is truncated: it has no end-of-image marker");
     std::string error;

@@ -33,11 +33,14 @@ Decoded decode(Bytes file, const ReadRequest& request) {
     if (begins_with(file, "\x76\x2f\x31\x01"sv)) return decode_exr(file, where, request.limits);
     if (const auto format = foreign_format(file, lower_extension(request.path)))
         return decode_foreign(*format, file, where, request.limits);
-    throw unreadable(where, "is none of the formats that are read: EXR, HDR (RGBE), PNG, TIFF, TGA (.tga), JPEG");
+    throw unreadable(where,
+                     "is none of the formats that are read: EXR, HDR (RGBE), PNG, TIFF, TGA (.tga), JPEG");
 }
 
-/// The encoding that the request or the file states, else the file's type suggests. Nothing: numbers are taken as is.
-std::optional<Encoding> resolve_encoding(const ReadRequest& request, const Decoded& decoded, SourceImage& source) {
+/// The encoding that the request or the file states, else the file's type suggests. Nothing: numbers are
+/// taken as is.
+std::optional<Encoding> resolve_encoding(const ReadRequest& request, const Decoded& decoded,
+                                         SourceImage& source) {
     if (request.colour_space == "auto") {
         source.colour_space = name_of(decoded.encoding);
         source.colour_space_assumed = decoded.encoding_assumed;

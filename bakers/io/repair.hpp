@@ -1,5 +1,6 @@
 #pragma once
-// Light is neither negative nor infinite: the two halves of the rule in image.hpp, before and after colour conversion.
+// Light is neither negative nor infinite: the two halves of the rule in image.hpp, before and after colour
+// conversion.
 
 #include <span>
 
@@ -7,8 +8,8 @@
 
 namespace pbrbake::io {
 
-/// NaN and -Inf become 0, +Inf the largest finite value of its channel (0 if that is negative or there is none).
-/// `rgb` holds triples. Adds to repairs.non_finite.
+/// NaN and -Inf become 0, +Inf the largest finite value of its channel (0 if that is negative or there is
+/// none). `rgb` holds triples. Adds to repairs.non_finite.
 void repair_non_finite(std::span<float> rgb, Repairs& repairs);
 
 /// Negative channels become 0; adds to repairs.negative and lowers repairs.lowest. `rgb` must be finite.

@@ -23,7 +23,10 @@
 namespace pbrbake::io {
 namespace {
 
-constexpr int kTileSize = 64;
+/// Measured on 256² cubes of a real HDRI in half: ZIP at 4 in tiles of 64 takes 27-33 ms and 7-11 % of the
+/// raw bytes; tiles of 32 or PIZ are larger and slower, 6 saves another 3-7 % for half as much time again,
+/// and no compression saves 20 ms for ten times the bytes.
+constexpr int kTileSize = 64, kZipLevel = 4;
 
 /// One level as the file has it: channels interleaved in the image's order.
 struct Picture {
@@ -48,7 +51,8 @@ Picture picture_of(const Image& image, std::size_t index) {
     return picture;
 }
 
-/// The next level of OpenEXR's chain where the image has none: means over the texels that each new one covers.
+/// The next level of OpenEXR's chain where the image has none: means over the texels that each new one
+/// covers.
 Picture filler_below(const Picture& above, std::size_t channels) {
     Picture below{std::max(1, above.width / 2), std::max(1, above.height / 2), {}};
     below.texels.resize(static_cast<std::size_t>(below.width) * below.height * channels);
@@ -59,7 +63,8 @@ Picture filler_below(const Picture& above, std::size_t channels) {
     for (int y = 0; y < below.height; ++y)
         for (int x = 0; x < below.width; ++x, out += channels) {
             const int x0 = first(x, above.width, below.width), x1 = first(x + 1, above.width, below.width);
-            const int y0 = first(y, above.height, below.height), y1 = first(y + 1, above.height, below.height);
+            const int y0 = first(y, above.height, below.height),
+                      y1 = first(y + 1, above.height, below.height);
             for (std::size_t c = 0; c < channels; ++c) {
                 double sum = 0;
                 for (int yy = y0; yy < y1; ++yy)
@@ -72,7 +77,8 @@ Picture filler_below(const Picture& above, std::size_t channels) {
     return below;
 }
 
-/// Primaries for RGB pictures whose working space is known, and the cd/m² of (1, 1, 1) where units are absolute.
+/// Primaries for RGB pictures whose working space is known, and the cd/m² of (1, 1, 1) where units are
+/// absolute.
 void state_colour(const Image& image, const FileInfo& info, Imf::Header& header) {
     const auto find = [&](const char* key) {
         const auto entry = info.metadata.find(key);
@@ -101,12 +107,14 @@ Imf::Header header_of(const Image& image, const FileInfo& info) {
     const Level& base = image.levels.front();
     Imf::Header header(base.width, base.height * image.faces);
     header.compression() = Imf::ZIP_COMPRESSION;
+    header.zipCompressionLevel() = kZipLevel;
     const Imf::PixelType type = info.pixel == PixelType::half ? Imf::HALF : Imf::FLOAT;
     for (const std::string& name : image.channels) header.channels().insert(name, Imf::Channel(type));
     if (image.faces == 6) Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
     state_colour(image, info, header);
     const auto add = [&](const std::string& key, const std::string& value) {
-        if (header.find(key) != header.end()) throw unwritable("metadata '" + key + "' is an attribute of EXR's own");
+        if (header.find(key) != header.end())
+            throw unwritable("metadata '" + key + "' is an attribute of EXR's own");
         header.insert(key, Imf::StringAttribute(value));
     };
     for (const auto& [key, value] : info.metadata) add(key, value);
@@ -128,9 +136,10 @@ class Pixels {
         for (std::size_t c = 0; c < channels; ++c) {
             const void* first = is_half ? static_cast<const void*>(halves_.data() + c)
                                         : static_cast<const void*>(picture.texels.data() + c);
-            frame_.insert(names[c], Imf::Slice::Make(is_half ? Imf::HALF : Imf::FLOAT, first, Imath::V2i(0, 0),
-                                                     picture.width, picture.height, channels * bytes,
-                                                     channels * bytes * static_cast<std::size_t>(picture.width)));
+            frame_.insert(names[c],
+                          Imf::Slice::Make(is_half ? Imf::HALF : Imf::FLOAT, first, Imath::V2i(0, 0),
+                                           picture.width, picture.height, channels * bytes,
+                                           channels * bytes * static_cast<std::size_t>(picture.width)));
         }
     }
     const Imf::FrameBuffer& frame() const { return frame_; }
@@ -150,7 +159,8 @@ void write_flat(const Image& image, const FileInfo& info, const Imf::Header& hea
 
 /// Tiled, with the whole chain of levels that OpenEXR demands.
 void write_mipmap(const Image& image, const FileInfo& info, Imf::Header& header, ExrOutput& stream) {
-    header.setTileDescription(Imf::TileDescription(kTileSize, kTileSize, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN));
+    header.setTileDescription(
+        Imf::TileDescription(kTileSize, kTileSize, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN));
     header.insert(kLevelsKey, Imf::StringAttribute(std::to_string(image.levels.size())));
     Imf::TiledOutputFile output(stream, header, 0);
     Picture picture;
@@ -169,9 +179,9 @@ void check_cube_levels(const Image& image) {
     const std::size_t levels = image.levels.size();
     const int size = image.levels.front().width;
     if (image.faces == 6 && size % (1 << (levels - 1)) != 0)
-        throw unwritable("an EXR cube map with " + std::to_string(levels) + " levels needs a size divisible by " +
-                         std::to_string(1 << (levels - 1)) + "; it is " + std::to_string(size) +
-                         ": use ktx2, or fewer levels");
+        throw unwritable("an EXR cube map with " + std::to_string(levels) +
+                         " levels needs a size divisible by " + std::to_string(1 << (levels - 1)) +
+                         "; it is " + std::to_string(size) + ": use ktx2, or fewer levels");
 }
 
 }  // namespace

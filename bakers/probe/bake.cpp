@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <atomic>
 #include <bit>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -11,7 +14,7 @@
 namespace pbrbake::probe {
 namespace {
 
-constexpr int kLargestPyramid = 1024;  // 134 MB of RGBA floats; far finer than any lobe that is sampled
+constexpr double kLargestPyramid = 1024;  // 134 MB of RGBA floats; far finer than any lobe that is sampled
 
 /// Calls row(face, y, span of RGB) for every row of a level.
 template <class Row>
@@ -63,14 +66,23 @@ double work_of_texel(const ProbeParams& params, int level, const Environment& en
     return 6 * n * n / 8;
 }
 
+/// Texels a side of the pyramid that samples read: eight across the half width of the narrowest lobe (finer ones change
+/// no digit of the result), but no more than the source has.
+int pyramid_size(const ProbeParams& params, const Environment& environment) {
+    const double alpha = pbr::alpha_from_perceptual_roughness(perceptual_roughness_of_level(params, 1));
+    const double wanted = std::min({8 / alpha, static_cast<double>(environment.equivalent_size()), kLargestPyramid});
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(wanted))));
+}
+
 void sampled_levels(const ProbeParams& params, const Environment& environment, Context& context, Image& image) {
-    const int base = std::min(kLargestPyramid, static_cast<int>(std::bit_ceil(
-                                                   static_cast<unsigned>(environment.equivalent_size()))));
-    Level base_level;
-    fill_level(context, base, base_level, 0, [&](int face, int y, std::span<float> rgb) {
-        environment.resample_area_row(base, face, y, rgb);
-    });
-    const pbr::CubePyramid pyramid(base_level.texels, base);
+    const int base = pyramid_size(params, environment);
+    Level resampled;
+    const bool level_0_serves = base == params.size && base <= environment.equivalent_size();
+    if (!level_0_serves)
+        fill_level(context, base, resampled, 0, [&](int face, int y, std::span<float> rgb) {
+            environment.resample_area_row(base, face, y, rgb);
+        });
+    const pbr::CubePyramid pyramid(level_0_serves ? image.levels[0].texels : resampled.texels, base);
     const auto estimator = params.integrator == Integrator::is ? pbr::LdEstimator::importance_sampling
                                                                : pbr::LdEstimator::filtered_importance_sampling;
     for (int l = 1; l < level_count(params); ++l) {

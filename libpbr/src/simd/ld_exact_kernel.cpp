@@ -19,32 +19,38 @@ namespace pbr {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+constexpr std::size_t kFlush = 256;  // points summed in float before the sum moves on to double
+
 /// Adds k(n.d) * weight * radiance of all points to the group's sums; the constant factor of k is left to the caller.
 void add_block(const PatchPoints& points, float alpha2, LdGroup& group) {
     const hn::CappedTag<float, kLdGroup> d;
     using V = hn::Vec<decltype(d)>;
-    const int lanes = static_cast<int>(hn::Lanes(d));
+    const std::size_t lanes = hn::Lanes(d);
     // f = alpha^2 + (1 - alpha^2)/4 |n - d|^2 and mu = 1 - |n - d|^2 / 2 (see ibl/zonal_kernel.hpp).
     const V a2 = hn::Set(d, alpha2), slope = hn::Set(d, (1 - alpha2) / 4), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
-    for (int begin = 0; begin < kLdGroup; begin += lanes) {
-        const V nx = hn::Load(d, group.x + begin), ny = hn::Load(d, group.y + begin), nz = hn::Load(d, group.z + begin);
-        V r = hn::Zero(d), g = hn::Zero(d), b = hn::Zero(d), w = hn::Zero(d);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const V dx = hn::Sub(nx, hn::Set(d, points.x[i])), dy = hn::Sub(ny, hn::Set(d, points.y[i]));
-            const V dz = hn::Sub(nz, hn::Set(d, points.z[i]));
-            const V chord2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-            const V mu = hn::Max(hn::Zero(d), hn::Sub(one, hn::Mul(half, chord2)));
-            const V f = hn::Add(a2, hn::Mul(slope, chord2));
-            const V k = hn::Div(hn::Mul(mu, hn::Set(d, points.weight[i])), hn::Mul(f, f));
-            r = hn::Add(r, hn::Mul(k, hn::Set(d, points.r[i])));
-            g = hn::Add(g, hn::Mul(k, hn::Set(d, points.g[i])));
-            b = hn::Add(b, hn::Mul(k, hn::Set(d, points.b[i])));
-            w = hn::Add(w, k);
-        }
-        HWY_ALIGN_MAX float out[kLdGroup];
-        for (const auto& [value, channel] : {std::pair{r, 0}, std::pair{g, 1}, std::pair{b, 2}, std::pair{w, 3}}) {
-            hn::Store(value, d, out);
-            for (int lane = 0; lane < lanes; ++lane) group.sum[channel][begin + lane] += static_cast<double>(out[lane]);
+    for (std::size_t first = 0; first < points.size(); first += kFlush) {
+        const std::size_t last = std::min(points.size(), first + kFlush);
+        for (std::size_t begin = 0; begin < kLdGroup; begin += lanes) {
+            const V nx = hn::Load(d, group.x + begin), ny = hn::Load(d, group.y + begin), nz = hn::Load(d, group.z + begin);
+            V r = hn::Zero(d), g = hn::Zero(d), b = hn::Zero(d), w = hn::Zero(d);
+            for (std::size_t i = first; i < last; ++i) {
+                const V dx = hn::Sub(nx, hn::Set(d, points.x[i])), dy = hn::Sub(ny, hn::Set(d, points.y[i]));
+                const V dz = hn::Sub(nz, hn::Set(d, points.z[i]));
+                const V chord2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+                const V mu = hn::Max(hn::Zero(d), hn::Sub(one, hn::Mul(half, chord2)));
+                const V f = hn::Add(a2, hn::Mul(slope, chord2));
+                const V k = hn::Div(hn::Mul(mu, hn::Set(d, points.weight[i])), hn::Mul(f, f));
+                r = hn::Add(r, hn::Mul(k, hn::Set(d, points.r[i])));
+                g = hn::Add(g, hn::Mul(k, hn::Set(d, points.g[i])));
+                b = hn::Add(b, hn::Mul(k, hn::Set(d, points.b[i])));
+                w = hn::Add(w, k);
+            }
+            HWY_ALIGN_MAX float out[kLdGroup];
+            for (const auto& [value, channel] : {std::pair{r, 0}, std::pair{g, 1}, std::pair{b, 2}, std::pair{w, 3}}) {
+                hn::Store(value, d, out);
+                for (std::size_t lane = 0; lane < lanes; ++lane)
+                    group.sum[channel][begin + lane] += static_cast<double>(out[lane]);
+            }
         }
     }
 }
@@ -59,7 +65,7 @@ namespace {
 
 HWY_EXPORT(add_block);
 
-constexpr int kOrders[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32};
+constexpr int kOrders[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128};
 
 /// Points a texel needs at an angle from the lobe's axis: Gauss-Legendre over a texel of angle h converges once h is well
 /// below the distance of the kernel's poles, which is about hypot(2 alpha, angle).

@@ -22,7 +22,9 @@ class Colour : public testing::Test {
     /// One texel of an EXR in float, read as `space` into `working`.
     Vector3 convert(const Vector3& rgb, const std::string& space, const std::string& working,
                     std::vector<double> chromaticities = {}) {
-        write_exr(dir_ / "a.exr", {.width = 1, .height = 1, .type = "float",
+        write_exr(dir_ / "a.exr", {.width = 1,
+                                   .height = 1,
+                                   .type = "float",
                                    .chromaticities = std::move(chromaticities),
                                    .value = [&](const std::string& name, int, int) {
                                        return static_cast<float>(rgb[name == "R" ? 0 : name == "G" ? 1 : 2]);
@@ -47,7 +49,8 @@ TEST_F(Colour, SrgbIsExactToAMillionth) {
     write_file(dir_ / "a.tif", tiff(1001, 1, 4, float_samples(samples)));
     const SourceImage source = read_source({dir_ / "a.tif", "srgb"});
     for (std::size_t i = 0; i <= 3000; ++i)
-        EXPECT_NEAR(source.image.levels[0].texels[i], srgb_to_linear(static_cast<double>(samples[i])), 1e-6) << i;
+        EXPECT_NEAR(source.image.levels[0].texels[i], srgb_to_linear(static_cast<double>(samples[i])), 1e-6)
+            << i;
 }
 
 TEST_F(Colour, Rec709ToAcescgIsTheAcademysMatrix) {
@@ -71,7 +74,8 @@ TEST_F(Colour, EveryGamutKeepsWhiteAndAgreesWithItsPrimaries) {
     for (const auto& [name, primaries] : gamuts) {
         SCOPED_TRACE(name);
         expect_near(convert({1, 1, 1}, name, "lin_rec709"), {1, 1, 1}, 1e-5);
-        const Matrix3 matrix = inverse(rgb_to_xyz(kRec709)) * bradford(primaries.white, kD65) * rgb_to_xyz(primaries);
+        const Matrix3 matrix =
+            inverse(rgb_to_xyz(kRec709)) * bradford(primaries.white, kD65) * rgb_to_xyz(primaries);
         const Vector3 rgb{.4, .5, .45};  // inside Rec. 709: nothing is clipped
         expect_near(convert(rgb, name, "lin_rec709"), matrix * rgb, 1e-5);
     }
@@ -81,14 +85,18 @@ TEST_F(Colour, StatedPrimariesAreConvertedAndAdapted) {
     const Chromaticities c{{.6, .35}, {.31, .59}, {.15, .07}, {.3457, .3585}};  // white D50
     const Vector3 rgb{.4, .5, .45};
     const Matrix3 matrix = inverse(rgb_to_xyz(kRec709)) * bradford(c.white, kD65) * rgb_to_xyz(c);
-    expect_near(convert(rgb, "auto", "lin_rec709", {.6, .35, .31, .59, .15, .07, .3457, .3585}), matrix * rgb, 1e-5);
+    expect_near(convert(rgb, "auto", "lin_rec709", {.6, .35, .31, .59, .15, .07, .3457, .3585}), matrix * rgb,
+                1e-5);
     // A colour space that the job states wins.
-    expect_near(convert(rgb, "lin_rec709", "lin_rec709", {.6, .35, .31, .59, .15, .07, .3457, .3585}), rgb, 1e-7);
+    expect_near(convert(rgb, "lin_rec709", "lin_rec709", {.6, .35, .31, .59, .15, .07, .3457, .3585}), rgb,
+                1e-7);
 }
 
 TEST_F(Colour, PowerCurves) {
-    expect_near(convert({.5, .25, 1}, "g22_rec709", "lin_rec709"), {std::pow(.5, 2.2), std::pow(.25, 2.2), 1}, 1e-6);
-    expect_near(convert({.5, .25, 1}, "g18_rec709", "lin_rec709"), {std::pow(.5, 1.8), std::pow(.25, 1.8), 1}, 1e-6);
+    expect_near(convert({.5, .25, 1}, "g22_rec709", "lin_rec709"), {std::pow(.5, 2.2), std::pow(.25, 2.2), 1},
+                1e-6);
+    expect_near(convert({.5, .25, 1}, "g18_rec709", "lin_rec709"), {std::pow(.5, 1.8), std::pow(.25, 1.8), 1},
+                1e-6);
 }
 
 TEST_F(Colour, RawAndEqualSpacesKeepEveryBit) {

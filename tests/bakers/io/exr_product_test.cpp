@@ -40,12 +40,15 @@ class Products : public testing::TestWithParam<std::string> {};
 
 TEST_P(Products, RoundTrip) {
     TempDir dir;
-    const std::vector<Image> images{
-        marked_image(16, 1, 1, {"R", "G", "B"}), marked_image(16, 5, 1, {"R", "G", "B", "A"}),
-        marked_image(13, 1, 1, {"scale", "bias"}), marked_image(13, 4, 1, {"zeta", "alpha", "mid"}),
-        marked_image(7, 1, 1, {"Y"}),            marked_image(16, 1, 6, {"R", "G", "B"}),
-        marked_image(16, 3, 6, {"R", "G", "B"}), marked_image(16, 5, 6, {"R", "G", "B"}),
-        marked_image(1, 1, 6, {"R", "G", "B"})};
+    const std::vector<Image> images{marked_image(16, 1, 1, {"R", "G", "B"}),
+                                    marked_image(16, 5, 1, {"R", "G", "B", "A"}),
+                                    marked_image(13, 1, 1, {"scale", "bias"}),
+                                    marked_image(13, 4, 1, {"zeta", "alpha", "mid"}),
+                                    marked_image(7, 1, 1, {"Y"}),
+                                    marked_image(16, 1, 6, {"R", "G", "B"}),
+                                    marked_image(16, 3, 6, {"R", "G", "B"}),
+                                    marked_image(16, 5, 6, {"R", "G", "B"}),
+                                    marked_image(1, 1, 6, {"R", "G", "B"})};
     for (const PixelType pixel : {PixelType::half, PixelType::float32})
         for (const Image& image : images) {
             SCOPED_TRACE(image.channels.front() + " of " + std::to_string(image.levels.size()) + " levels");
@@ -68,7 +71,8 @@ TEST_P(Products, SameArgumentsSameBytes) {
 TEST_P(Products, RefusesPixelTypesItCannotHold) {
     FileInfo info;
     info.pixel = PixelType::unorm16;
-    EXPECT_NE(refusal(GetParam(), marked_image(2, 1, 1, {"R"}), info).find("half or float"), std::string::npos);
+    EXPECT_NE(refusal(GetParam(), marked_image(2, 1, 1, {"R"}), info).find("half or float"),
+              std::string::npos);
 }
 
 TEST_P(Products, RefusesMisshapenImages) {
@@ -94,7 +98,8 @@ TEST(Encode, RefusesUnknownFormatsByName) {
 }
 
 TEST(ExrProduct, RefusesCubesWhoseLevelsOpenExrCannotLayOut) {
-    EXPECT_NE(refusal("exr", marked_image(100, 4, 6, {"R", "G", "B"})).find("divisible by 8"), std::string::npos);
+    EXPECT_NE(refusal("exr", marked_image(100, 4, 6, {"R", "G", "B"})).find("divisible by 8"),
+              std::string::npos);
 }
 
 TEST(ExrProduct, StatesPrimariesAndNoDate) {
@@ -119,7 +124,8 @@ TEST(ExrProduct, EveryLevelIsReadByOtherPrograms) {
     const std::string path = (dir / "a.exr").string();
     Image image = marked_image(16, 3, 6, {"R", "G", "B"});
     for (Level& level : image.levels)
-        for (float& value : level.texels) value = .75f;  // so that the levels that fill up the chain are known too
+        for (float& value : level.texels)
+            value = .75f;  // so that the levels that fill up the chain are known too
     write_file(path, encode("exr", image, info_with(PixelType::half)));
     std::string command = "oiiotool --no-autopremult";
     for (int level = 0; level < 7; ++level)  // 16 x 96 … 1 x 6, 1 x 3, 1 x 1
@@ -128,8 +134,8 @@ TEST(ExrProduct, EveryLevelIsReadByOtherPrograms) {
     const std::string output = run_program(command, status);
     ASSERT_EQ(status, 0) << output;
     std::size_t levels = 0;
-    for (std::size_t at = 0; (at = output.find("Constant Color: 0.750000 0.750000 0.750000", at)) != std::string::npos;
-         ++at)
+    for (std::size_t at = 0;
+         (at = output.find("Constant Color: 0.750000 0.750000 0.750000", at)) != std::string::npos; ++at)
         ++levels;
     if (levels != 7) {  // its words differ between versions; its errors don't
         EXPECT_EQ(output.find("rror"), std::string::npos) << output;
@@ -139,10 +145,10 @@ TEST(ExrProduct, EveryLevelIsReadByOtherPrograms) {
 
 TEST(ExrProduct, ReadsFilesThatOthersWrote) {
     TempDir dir;
-    write_exr(dir / "a.exr", {.channels = {"B", "G", "R", "depth"},
-                              .value = [](const std::string& name, int x, int) {
-                                  return static_cast<float>(x) + (name == "R" ? 10.f : name == "depth" ? 20.f : 0.f);
-                              }});
+    write_exr(dir / "a.exr",
+              {.channels = {"B", "G", "R", "depth"}, .value = [](const std::string& name, int x, int) {
+                   return static_cast<float>(x) + (name == "R" ? 10.f : name == "depth" ? 20.f : 0.f);
+               }});
     const ReadBack back = read_product(dir / "a.exr");
     EXPECT_EQ(back.image.channels, (std::vector<std::string>{"R", "G", "B", "depth"}));
     EXPECT_EQ(back.image.texel(0, 0, 1, 3)[0], 13.f);

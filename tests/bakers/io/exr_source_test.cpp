@@ -1,4 +1,5 @@
-// EXR sources: channels, windows, tiles, cube maps, colour and units that the file states, and what it may claim.
+// EXR sources: channels, windows, tiles, cube maps, colour and units that the file states, and what it may
+// claim.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,9 @@ namespace pbrbake::io::test {
 namespace {
 
 float coded(const std::string& channel, int x, int y) {
-    return static_cast<float>(x + 16 * y) + (channel.back() == 'R' ? 0.f : channel.back() == 'G' ? .25f : .5f);
+    return static_cast<float>(x + 16 * y) + (channel.back() == 'R'   ? 0.f
+                                             : channel.back() == 'G' ? .25f
+                                                                     : .5f);
 }
 
 class ExrSource : public testing::Test {
@@ -55,12 +58,14 @@ TEST_F(ExrSource, ReadsHalfAndFloatScanlinesAndTiles) {
     for (const char* type : {"half", "float"})
         for (const bool tiled : {false, true}) {
             SCOPED_TRACE(type);
-            expect_coded(read({.width = 10, .height = 6, .type = type, .tiled = tiled, .value = coded}), 10, 6);
+            expect_coded(read({.width = 10, .height = 6, .type = type, .tiled = tiled, .value = coded}), 10,
+                         6);
         }
 }
 
 TEST_F(ExrSource, ReadsUnsignedIntegersAsTheyAre) {
-    const SourceImage source = read({.type = "uint", .value = [](const std::string&, int, int) { return 7.f; }});
+    const SourceImage source =
+        read({.type = "uint", .value = [](const std::string&, int, int) { return 7.f; }});
     EXPECT_EQ(*source.image.texel(0, 0, 0, 0), 7.f);
 }
 
@@ -75,6 +80,11 @@ TEST_F(ExrSource, SpreadsGreyAndDropsAlpha) {
 
 TEST_F(ExrSource, FindsRgbInALayer) {
     expect_coded(read({.channels = {"Z", "beauty.B", "beauty.G", "beauty.R"}, .value = coded}), 8, 4);
+}
+
+TEST_F(ExrSource, ReadsTheFirstOfSeveralParts) {
+    write_two_part_exr(dir_ / "a.exr", {.value = coded}, 99);
+    expect_coded(read_source({dir_ / "a.exr"}), 8, 4);
 }
 
 TEST_F(ExrSource, RefusesChannelsThatAreNoColourByName) {
@@ -112,7 +122,8 @@ TEST_F(ExrSource, UndoesTheScaleOfAProduct) {
     write_file(dir_ / "a.exr", encode("exr", marked_image(4, 1, 1, {"R", "G", "B"}), info));
     const SourceImage source = read_source({dir_ / "a.exr"});
     EXPECT_EQ(source.units, "relative");
-    EXPECT_EQ(*source.image.texel(0, 0, 1, 2), 4.f * *marked_image(4, 1, 1, {"R", "G", "B"}).texel(0, 0, 1, 2));
+    EXPECT_EQ(*source.image.texel(0, 0, 1, 2),
+              4.f * *marked_image(4, 1, 1, {"R", "G", "B"}).texel(0, 0, 1, 2));
 }
 
 /// The direction of a texel of ours, from the words of image.hpp: faces as OpenGL samples them.
@@ -120,26 +131,35 @@ Imath::V3f our_direction(int face, int x, int y, int size) {
     const float s = (static_cast<float>(x) + .5f) / static_cast<float>(size) * 2 - 1;
     const float t = (static_cast<float>(y) + .5f) / static_cast<float>(size) * 2 - 1;
     switch (face) {
-        case 0: return {1, -t, -s};
-        case 1: return {-1, -t, s};
-        case 2: return {s, 1, t};
-        case 3: return {s, -1, -t};
-        case 4: return {s, -t, 1};
-        default: return {-s, -t, -1};
+        case 0:
+            return {1, -t, -s};
+        case 1:
+            return {-1, -t, s};
+        case 2:
+            return {s, 1, t};
+        case 3:
+            return {s, -1, -t};
+        case 4:
+            return {s, -t, 1};
+        default:
+            return {-s, -t, -1};
     }
 }
 
-/// OpenEXR's direction of a texel of its picture, found by looking through every texel of every face. OpenEXR puts
-/// the outermost texel centres on the cube's edges, so its direction is shrunk to where the centre is for us.
+/// OpenEXR's direction of a texel of its picture, found by looking through every texel of every face. OpenEXR
+/// puts the outermost texel centres on the cube's edges, so its direction is shrunk to where the centre is
+/// for us.
 std::array<float, 3> exr_direction(int x, int y, int size) {
     const Imath::Box2i window({0, 0}, {size - 1, 6 * size - 1});
     const int face = y / size;
     for (int j = 0; j < size; ++j)
         for (int i = 0; i < size; ++i) {
             const Imath::V2f in_face(static_cast<float>(i), static_cast<float>(j));
-            const Imath::V2f at = Imf::CubeMap::pixelPosition(static_cast<Imf::CubeMapFace>(face), window, in_face);
+            const Imath::V2f at =
+                Imf::CubeMap::pixelPosition(static_cast<Imf::CubeMapFace>(face), window, in_face);
             if (std::lround(at.x) != x || std::lround(at.y) != y) continue;
-            const Imath::V3f d = Imf::CubeMap::direction(static_cast<Imf::CubeMapFace>(face), window, in_face);
+            const Imath::V3f d =
+                Imf::CubeMap::direction(static_cast<Imf::CubeMapFace>(face), window, in_face);
             std::array<float, 3> direction{d.x, d.y, d.z};
             for (int axis = 0; axis < 3; ++axis)
                 if (axis != face / 2)
@@ -153,13 +173,16 @@ std::array<float, 3> exr_direction(int x, int y, int size) {
 
 TEST_F(ExrSource, CubeTexelsKeepTheirDirections) {
     constexpr int kSize = 4;
-    // Every texel holds its direction, shifted to be positive: a picture on each face that no turn leaves unchanged.
-    const SourceImage source =
-        read({.width = kSize, .height = 6 * kSize, .type = "float", .cube = true,
-              .value = [](const std::string& channel, int x, int y) {
-                  const auto d = exr_direction(x, y, kSize);
-                  return 2 + d[channel == "R" ? 0 : channel == "G" ? 1 : 2];
-              }});
+    // Every texel holds its direction, shifted to be positive: a picture on each face that no turn leaves
+    // unchanged.
+    const SourceImage source = read({.width = kSize,
+                                     .height = 6 * kSize,
+                                     .type = "float",
+                                     .cube = true,
+                                     .value = [](const std::string& channel, int x, int y) {
+                                         const auto d = exr_direction(x, y, kSize);
+                                         return 2 + d[channel == "R" ? 0 : channel == "G" ? 1 : 2];
+                                     }});
     ASSERT_EQ(source.image.faces, 6);
     ASSERT_EQ(source.image.levels.at(0).width, kSize);
     ASSERT_EQ(source.image.levels.at(0).height, kSize);
@@ -175,7 +198,8 @@ TEST_F(ExrSource, CubeTexelsKeepTheirDirections) {
 }
 
 TEST_F(ExrSource, RefusesCubesOfTheWrongShape) {
-    EXPECT_NE(refusal(ExrFixture{.width = 4, .height = 20, .cube = true}).find("not n x 6n"), std::string::npos);
+    EXPECT_NE(refusal(ExrFixture{.width = 4, .height = 20, .cube = true}).find("not n x 6n"),
+              std::string::npos);
 }
 
 /// A scanline header that claims a window, with `tail` bytes behind it.
@@ -217,14 +241,18 @@ Buffer claiming_header(std::int64_t width, std::int64_t height, int compression,
 
 TEST_F(ExrSource, RefusesHugeWindows) {
     EXPECT_NE(refusal(claiming_header(200000, 200000, 3, 64)).find("65536 a side"), std::string::npos);
-    EXPECT_NE(refusal(claiming_header(65536, 65536, 3, 64)).find("the limit is 4294967296"), std::string::npos);
-    EXPECT_NE(refusal(claiming_header(16384, 16384, 3, 64)).find("can't be in the file's"), std::string::npos);
-    EXPECT_NE(refusal(claiming_header(16384, 16384, 0, 1 << 20)).find("can't be in the file's"), std::string::npos);
+    EXPECT_NE(refusal(claiming_header(65536, 65536, 3, 64)).find("the limit is 4294967296"),
+              std::string::npos);
+    EXPECT_NE(refusal(claiming_header(16384, 16384, 3, 64)).find("can't be in the file's"),
+              std::string::npos);
+    EXPECT_NE(refusal(claiming_header(16384, 16384, 0, 1 << 20)).find("can't be in the file's"),
+              std::string::npos);
     EXPECT_NE(refusal(claiming_header(0, 5, 3, 64)).find("claims 0 x 5"), std::string::npos);
 }
 
 TEST_F(ExrSource, RefusesTinyAndGiantTiles) {
-    EXPECT_NE(refusal(claiming_header(16384, 16384, 4, 4096, 1)).find("can't be in the file's"), std::string::npos);
+    EXPECT_NE(refusal(claiming_header(16384, 16384, 4, 4096, 1)).find("can't be in the file's"),
+              std::string::npos);
     EXPECT_NE(refusal(claiming_header(16, 16, 4, 4096, 1 << 20)).find("tiles of"), std::string::npos);
 }
 

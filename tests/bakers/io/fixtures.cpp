@@ -3,7 +3,10 @@
 #include <ImfChannelList.h>
 #include <ImfEnvmapAttribute.h>
 #include <ImfFrameBuffer.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
 #include <ImfTiledOutputFile.h>
 #include <half.h>
@@ -97,8 +100,8 @@ Buffer float_samples(const std::vector<float>& values) {
     return out;
 }
 
-Buffer tiff(int width, int height, int sample_bytes, const Buffer& samples) {
-    constexpr int kEntries = 11;
+Buffer tiff(int width, int height, int sample_bytes, const Buffer& samples, int orientation) {
+    constexpr int kEntries = 12;
     constexpr std::uint64_t kIfd = 8, kExtra = kIfd + 2 + kEntries * 12 + 4;
     constexpr std::uint64_t kBits = kExtra, kFormats = kExtra + 6, kPixels = kExtra + 12;
     Buffer out;
@@ -107,7 +110,8 @@ Buffer tiff(int width, int height, int sample_bytes, const Buffer& samples) {
     put_le(out, kIfd, 4);
     put_le(out, kEntries, 2);
     const auto entry = [&](int tag, int type, std::uint64_t count, std::uint64_t value) {
-        put_le(put_le(put_le(put_le(out, static_cast<std::uint64_t>(tag), 2), static_cast<std::uint64_t>(type), 2),
+        put_le(put_le(put_le(put_le(out, static_cast<std::uint64_t>(tag), 2),
+                             static_cast<std::uint64_t>(type), 2),
                       count, 4),
                value, 4);
     };
@@ -118,6 +122,7 @@ Buffer tiff(int width, int height, int sample_bytes, const Buffer& samples) {
     entry(259, kShort, 1, 1);  // not compressed
     entry(262, kShort, 1, 2);  // RGB
     entry(273, kLong, 1, kPixels);
+    entry(274, kShort, 1, static_cast<std::uint64_t>(orientation));
     entry(277, kShort, 1, 3);
     entry(278, kLong, 1, static_cast<std::uint64_t>(height));
     entry(279, kLong, 1, samples.size());
@@ -226,8 +231,7 @@ void write_exr(const std::filesystem::path& path, const ExrFixture& fixture) {
     }
     for (std::size_t c = 0; c < storage.size(); ++c)
         frame.insert(fixture.channels[c],
-                     Imf::Slice::Make(type, storage[c].data(), data, 4,
-                                      4 * static_cast<std::size_t>(width)));
+                     Imf::Slice::Make(type, storage[c].data(), data, 4, 4 * static_cast<std::size_t>(width)));
     if (fixture.tiled) {
         header.setTileDescription(Imf::TileDescription(4, 4, Imf::ONE_LEVEL));
         Imf::TiledOutputFile output(path.c_str(), header, 0);
@@ -237,6 +241,35 @@ void write_exr(const std::filesystem::path& path, const ExrFixture& fixture) {
         Imf::OutputFile output(path.c_str(), header, 0);
         output.setFrameBuffer(frame);
         output.writePixels(height);
+    }
+}
+
+void write_two_part_exr(const std::filesystem::path& path, const ExrFixture& first, float second_value) {
+    const auto count = static_cast<std::size_t>(first.width) * static_cast<std::size_t>(first.height);
+    std::vector<Imf::Header> headers;
+    for (const char* name : {"first", "second"}) {
+        Imf::Header header(first.width, first.height);
+        header.setName(name);
+        header.setType(Imf::SCANLINEIMAGE);
+        for (const std::string& channel : first.channels)
+            header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+        headers.push_back(header);
+    }
+    Imf::MultiPartOutputFile output(path.c_str(), headers.data(), 2, false, 0);
+    for (int part = 0; part < 2; ++part) {
+        std::vector<std::vector<float>> storage(first.channels.size(),
+                                                std::vector<float>(count, second_value));
+        Imf::FrameBuffer frame;
+        for (std::size_t c = 0; c < storage.size(); ++c) {
+            for (std::size_t i = 0; i < count && part == 0; ++i)
+                storage[c][i] = first.value(first.channels[c], static_cast<int>(i) % first.width,
+                                            static_cast<int>(i) / first.width);
+            frame.insert(first.channels[c],
+                         Imf::Slice::Make(Imf::FLOAT, storage[c].data(), headers[0].dataWindow()));
+        }
+        Imf::OutputPart out(output, part);
+        out.setFrameBuffer(frame);
+        out.writePixels(first.height);
     }
 }
 
@@ -260,8 +293,9 @@ Image marked_image(int size, int levels, int faces, const std::vector<std::strin
             for (int y = 0; y < level.height; ++y)
                 for (int x = 0; x < level.width; ++x)
                     for (std::size_t c = 0; c < channels.size(); ++c)
-                        level.texels.push_back(static_cast<float>(half(
-                            static_cast<float>(l * 7 + f * 5 + y * 3 + x * 2) + .25f * static_cast<float>(c))));
+                        level.texels.push_back(
+                            static_cast<float>(half(static_cast<float>(l * 7 + f * 5 + y * 3 + x * 2) +
+                                                    .25f * static_cast<float>(c))));
         image.levels.push_back(std::move(level));
     }
     return image;
@@ -270,7 +304,8 @@ Image marked_image(int size, int levels, int faces, const std::vector<std::strin
 std::filesystem::path shared_data() {
     const char* stated = std::getenv("PBRBAKE_SHARED_DATA");
     const std::filesystem::path path =
-        stated ? std::filesystem::path(stated) : std::filesystem::path(PBRBAKE_SOURCE_DIR) / ".." / "shared" / "data";
+        stated ? std::filesystem::path(stated)
+               : std::filesystem::path(PBRBAKE_SOURCE_DIR) / ".." / "shared" / "data";
     return std::filesystem::is_directory(path) ? path : std::filesystem::path();
 }
 
@@ -279,7 +314,8 @@ std::string run_program(const std::string& command, int& status) {
     std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
     if (!pipe) throw std::runtime_error("can't run " + command);
     std::array<char, 4096> chunk;
-    while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), pipe)) output.append(chunk.data(), count);
+    while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), pipe))
+        output.append(chunk.data(), count);
     const int result = pclose(pipe);
     status = WIFEXITED(result) ? WEXITSTATUS(result) : -1;
     return output;

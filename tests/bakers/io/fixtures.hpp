@@ -47,8 +47,9 @@ Buffer coded_hdr(int width, int height, const std::vector<int>& rgbe);
 /// 24-bit TGA, top row first; `rgb` cycles. Coded: run packets of one row each (width <= 128).
 Buffer targa(int width, int height, std::initializer_list<int> rgb, bool coded);
 
-/// Little-endian TIFF, directory before pixels, one strip, uncompressed. `sample_bytes` 1, 2 (integers) or 4 (float).
-Buffer tiff(int width, int height, int sample_bytes, const Buffer& samples);
+/// Little-endian TIFF, directory before pixels, one strip, uncompressed. `sample_bytes` 1, 2 (integers) or 4
+/// (float).
+Buffer tiff(int width, int height, int sample_bytes, const Buffer& samples, int orientation = 1);
 Buffer float_samples(const std::vector<float>& values);
 
 /// 8 x 8 grey baseline JPEG, every texel 192: one block with a DC of 8 at a quantiser of 64.
@@ -71,11 +72,14 @@ struct ExrFixture {
     std::function<float(const std::string& channel, int x, int y)> value = {};
 };
 void write_exr(const std::filesystem::path& path, const ExrFixture& fixture);
+/// Two scanline parts; channels, size and type are the first's for both.
+void write_two_part_exr(const std::filesystem::path& path, const ExrFixture& first, float second_value);
 
 /// Runs read_source and returns the exit code of what it throws, 0 when it reads.
 int code_of_reading(const ReadRequest& request, std::string* message = nullptr);
 
-/// An image of distinct, half-representable values: level, face, row, column and channel can be told from each.
+/// An image of distinct, half-representable values: level, face, row, column and channel can be told from
+/// each.
 Image marked_image(int size, int levels, int faces, const std::vector<std::string>& channels);
 
 /// The folder of real assets, empty where it is absent.

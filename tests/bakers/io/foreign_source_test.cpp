@@ -1,4 +1,5 @@
-// HDR, PNG, TIFF, TGA and JPEG sources: known texels, what the file tells of its colours, and what it may claim.
+// HDR, PNG, TIFF, TGA and JPEG sources: known texels, what the file tells of its colours, and what it may
+// claim.
 
 #include <gtest/gtest.h>
 
@@ -100,7 +101,8 @@ TEST_F(ForeignSource, ReadsPngAndKnowsItByItsBytes) {
     const Buffer png = encode_png8(2, 1, {255, 0, 51, 1, 2, 3});
     const SourceImage source = read("misnamed.jpg", png);
     expect_texel(source, 0, 0, 1, 0, srgb_to_linear(.2), 1e-6);
-    expect_texel(source, 1, 0, srgb_to_linear(1 / 255.), srgb_to_linear(2 / 255.), srgb_to_linear(3 / 255.), 1e-6);
+    expect_texel(source, 1, 0, srgb_to_linear(1 / 255.), srgb_to_linear(2 / 255.), srgb_to_linear(3 / 255.),
+                 1e-6);
 }
 
 TEST_F(ForeignSource, BelievesColourChunksOfPng) {
@@ -123,7 +125,8 @@ TEST_F(ForeignSource, BelievesColourChunksOfPng) {
     EXPECT_NEAR(*lin.image.texel(0, 0, 0, 0), 128 / 255., 1e-7);
 
     Buffer wide;
-    for (const std::uint64_t xy : {31270, 32900, 68000, 32000, 26500, 69000, 15000, 6000}) put_be(wide, xy, 4);
+    for (const std::uint64_t xy : {31270, 32900, 68000, 32000, 26500, 69000, 15000, 6000})
+        put_be(wide, xy, 4);
     Buffer gamma_two;
     const Buffer with_gamma = png_with(png, "gAMA", put_be(gamma_two, 50000, 4));
     const SourceImage p3 = read("p.png", png_with(with_gamma, "cHRM", wide, false));
@@ -145,6 +148,36 @@ TEST_F(ForeignSource, JobOverrulesFile) {
     EXPECT_NEAR(*source.image.texel(0, 0, 0, 0), 128 / 255., 1e-7);
 }
 
+TEST_F(ForeignSource, TurnsPicturesUprightAsExifSays) {
+    // Stored: row 0 is 1 2 3, row 1 is 4 5 6. Exif 2.32, 4.6.4 A: where row 0 and column 0 are shown.
+    std::vector<float> stored;
+    for (int i = 1; i <= 6; ++i) stored.insert(stored.end(), 3, static_cast<float>(i));
+    const std::vector<std::vector<float>> shown{{1, 2, 3, 4, 5, 6}, {3, 2, 1, 6, 5, 4}, {6, 5, 4, 3, 2, 1},
+                                                {4, 5, 6, 1, 2, 3}, {1, 4, 2, 5, 3, 6}, {4, 1, 5, 2, 6, 3},
+                                                {6, 3, 5, 2, 4, 1}, {3, 6, 2, 5, 1, 4}};
+    for (int orientation = 1; orientation <= 8; ++orientation) {
+        SCOPED_TRACE(orientation);
+        const SourceImage source = read("a.tif", tiff(3, 2, 4, float_samples(stored), orientation));
+        EXPECT_EQ(source.image.levels[0].width, orientation < 5 ? 3 : 2);
+        std::vector<float> red;
+        for (std::size_t i = 0; i < 6; ++i) red.push_back(source.image.levels[0].texels[3 * i]);
+        EXPECT_EQ(red, shown[static_cast<std::size_t>(orientation - 1)]);
+    }
+}
+
+TEST_F(ForeignSource, AbsentModuleIsNamedWithWhereItWasLookedFor) {
+    // A copy of this program in a tree without modules, asked to read an HDR.
+    std::filesystem::create_directories(dir_ / "bin");
+    std::filesystem::copy_file("/proc/self/exe", dir_ / "bin/tests");
+    int status = 0;
+    std::string command = (dir_ / "bin/tests").string();
+    command += " --gtest_filter=ForeignSource.ReadsFlatRgbe";
+    const std::string output = run_program(command, status);
+    if (status == 0) GTEST_SKIP() << "the modules are installed, so none is absent";
+    EXPECT_NE(output.find((dir_ / "lib/pbrbake/pbrbake_oiio.so").string()), std::string::npos) << output;
+    EXPECT_NE(output.find("needed to read HDR"), std::string::npos) << output;
+}
+
 TEST_F(ForeignSource, HashIsOfTheFile) {
     const Buffer bytes = flat_hdr(4, 2, {128, 64, 32, 129});
     EXPECT_EQ(read("a.hdr", bytes).hash, hash_bytes(bytes.data(), bytes.size()));
@@ -156,7 +189,8 @@ TEST_F(ForeignSource, RefusesHeaderOnlyHdrQuickly) {
     EXPECT_NE(refusal("a.hdr", hdr_header(200000, 200000)).find("65536 a side"), std::string::npos);
     ReadLimits wide;
     wide.max_side = 1 << 30;
-    EXPECT_NE(refusal("a.hdr", hdr_header(200000, 200000), wide).find("the limit is 4294967296"), std::string::npos);
+    EXPECT_NE(refusal("a.hdr", hdr_header(200000, 200000), wide).find("the limit is 4294967296"),
+              std::string::npos);
     wide.max_decoded_bytes = std::uint64_t{1} << 50;
     EXPECT_NE(refusal("a.hdr", hdr_header(200000, 200000), wide).find("can't hold"), std::string::npos);
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));

@@ -14,7 +14,7 @@ TEST(Hash, OfNothingIsTheKnownOne) {
 TEST(Hash, FilesAndBuffersAgree) {
     TempDir dir;
     Buffer bytes;
-    for (int i = 0; i < 3000000; ++i) bytes.push_back(static_cast<std::byte>(i * i >> 3));
+    for (unsigned i = 0; i < 3000000; ++i) bytes.push_back(static_cast<std::byte>(i * i >> 3));
     write_file(dir / "a", bytes);
     EXPECT_EQ(hash_file(dir / "a"), hash_bytes(bytes.data(), bytes.size()));
     bytes[1234567] ^= std::byte{1};

@@ -49,7 +49,8 @@ class Checker {
     }
 
     void check_identifier() {
-        const unsigned char identifier[12] = {0xAB, 0x4B, 0x54, 0x58, 0x20, 0x32, 0x30, 0xBB, 0x0D, 0x0A, 0x1A, 0x0A};
+        const unsigned char identifier[12] = {0xAB, 0x4B, 0x54, 0x58, 0x20, 0x32,
+                                              0x30, 0xBB, 0x0D, 0x0A, 0x1A, 0x0A};
         expect(std::memcmp(file_.data(), identifier, 12) == 0, "identifier");
     }
 
@@ -82,7 +83,8 @@ class Checker {
         const std::uint64_t index_end = 80 + 24 * level_count_;
         expect(u64(64) == 0 && u64(72) == 0, "sgdByteOffset and sgdByteLength must be 0");
         expect(dfd_.offset == index_end, "the data format descriptor must follow the level index");
-        expect(dfd_.size >= 4 && dfd_.end() <= file_.size(), "the data format descriptor is outside the file");
+        expect(dfd_.size >= 4 && dfd_.end() <= file_.size(),
+               "the data format descriptor is outside the file");
         expect(kvd_.offset == dfd_.end(), "kvdByteOffset - dfdByteOffset must be dfdTotalSize");
         expect(kvd_.size > 0 && kvd_.end() <= file_.size(), "the key/value data are outside the file");
     }
@@ -97,7 +99,8 @@ class Checker {
         expect(number(at + 10, 2) == block, "descriptorBlockSize");
         expect(number(at + 12, 1) == 1, "colorModel must be RGBSDA");
         const std::uint64_t primaries = number(at + 13, 1);
-        expect(primaries == 0 || primaries == 1 || primaries == 7, "colorPrimaries: unspecified, BT.709 or AP1");
+        expect(primaries == 0 || primaries == 1 || primaries == 7,
+               "colorPrimaries: unspecified, BT.709 or AP1");
         expect(number(at + 14, 1) == 1, "transferFunction must be linear");
         expect(number(at + 15, 1) == 0, "flags must be 0");
         expect(u32(at + 16) == 0, "texelBlockDimension must be 1 x 1 x 1 x 1");
@@ -154,7 +157,8 @@ class Checker {
 
     void check_reserved(const std::string& key, const std::string& value) {
         if (key == "KTXorientation")
-            expect(value == "rd", "KTXorientation must be rd for cube maps, and is for pictures whose row 0 is on top");
+            expect(value == "rd",
+                   "KTXorientation must be rd for cube maps, and is for pictures whose row 0 is on top");
         else if (key == "KTXwriter")
             expect(!value.empty(), "KTXwriter must name its writer");
         else
@@ -168,8 +172,8 @@ class Checker {
             const std::string which = "level " + std::to_string(level) + ": ";
             const std::uint64_t at = 80 + 24 * level;
             const std::uint64_t offset = u64(at), size = u64(at + 8);
-            const std::uint64_t texels =
-                faces_ * std::max<std::uint64_t>(1, width_ >> level) * std::max<std::uint64_t>(1, height_ >> level);
+            const std::uint64_t texels = faces_ * std::max<std::uint64_t>(1, width_ >> level) *
+                                         std::max<std::uint64_t>(1, height_ >> level);
             expect(size == texels * texel, which + "byteLength");
             expect(u64(at + 16) == size, which + "uncompressedByteLength");
             expect(offset % alignment == 0, which + "alignment");

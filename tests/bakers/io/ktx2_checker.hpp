@@ -1,6 +1,6 @@
 #pragma once
-// Holds a KTX2 file against the specification (KTX File Format 2.0, Khronos Data Format 1.3), for the formats that
-// pbrbake writes. Written from the specification and sharing nothing with the writer.
+// Holds a KTX2 file against the specification (KTX File Format 2.0, Khronos Data Format 1.3), for the formats
+// that pbrbake writes. Written from the specification and sharing nothing with the writer.
 
 #include <cstddef>
 #include <string>

@@ -15,7 +15,8 @@ namespace {
 FileInfo info_with(PixelType pixel) {
     FileInfo info;
     info.pixel = pixel;
-    info.metadata = {{"pbrbake:scale", "0.5"}, {"pbrbake:working_space", "acescg"}, {"zeta", "ü"}, {"Alpha", ""}};
+    info.metadata = {
+        {"pbrbake:scale", "0.5"}, {"pbrbake:working_space", "acescg"}, {"zeta", "ü"}, {"Alpha", ""}};
     return info;
 }
 
@@ -27,9 +28,12 @@ std::string joined(const std::vector<std::string>& breaches) {
 
 /// One of every shape and format that is written.
 std::vector<std::pair<std::string, Image>> shapes() {
-    return {{"cube", marked_image(16, 5, 6, {"R", "G", "B"})},     {"cube_npot", marked_image(20, 3, 6, {"R", "G", "B"})},
-            {"cube_one", marked_image(1, 1, 6, {"R", "G", "B"})},  {"rgba", marked_image(8, 4, 1, {"R", "G", "B", "A"})},
-            {"rg", marked_image(9, 3, 1, {"scale", "bias"})},      {"r", marked_image(5, 3, 1, {"Y"})},
+    return {{"cube", marked_image(16, 5, 6, {"R", "G", "B"})},
+            {"cube_npot", marked_image(20, 3, 6, {"R", "G", "B"})},
+            {"cube_one", marked_image(1, 1, 6, {"R", "G", "B"})},
+            {"rgba", marked_image(8, 4, 1, {"R", "G", "B", "A"})},
+            {"rg", marked_image(9, 3, 1, {"scale", "bias"})},
+            {"r", marked_image(5, 3, 1, {"Y"})},
             {"table", marked_image(6, 1, 1, {"x", "y", "energy"})}};
 }
 
@@ -72,7 +76,9 @@ TEST(Ktx2, StoresFacesInOrderSmallestLevelFirstAlphaOne) {
             for (int y = 0; y < size; ++y)
                 for (int x = 0; x < size; ++x) {
                     std::uint16_t bits[4];
-                    std::memcpy(bits, file.data() + offset + 8 * static_cast<std::size_t>((face * size + y) * size + x), 8);
+                    std::memcpy(
+                        bits,
+                        file.data() + offset + 8 * static_cast<std::size_t>((face * size + y) * size + x), 8);
                     const float* texel = image.texel(static_cast<int>(l), face, y, x);
                     for (int c = 0; c < 3; ++c) EXPECT_EQ(bits[c], half(texel[c]).bits());
                     EXPECT_EQ(bits[3], half(1.f).bits());
@@ -125,8 +131,9 @@ TEST(Ktx2, AnotherParserAgrees) {
     Buffer broken = encode("ktx2", marked_image(4, 2, 6, {"R", "G", "B"}), {});
     broken[36] = std::byte{5};  // faceCount
     write_file(dir / "broken.ktx2", broken);
-    run_program("node '" + (external / "check_ktx2.mjs").string() + "' '" + (dir / "broken.ktx2").string() + "'",
-                status);
+    run_program(
+        "node '" + (external / "check_ktx2.mjs").string() + "' '" + (dir / "broken.ktx2").string() + "'",
+        status);
     EXPECT_NE(status, 0);
 }
 

@@ -76,7 +76,8 @@ TEST(Quantise, UnormRoundsToItsStepsAndClipsBelowZero) {
 
 TEST(Quantise, NaNStaysNaN) {
     auto images = images_of({{std::numeric_limits<float>::quiet_NaN(), 1}});
-    for (const PixelType pixel : {PixelType::half, PixelType::unorm16, PixelType::unorm8, PixelType::float32}) {
+    for (const PixelType pixel :
+         {PixelType::half, PixelType::unorm16, PixelType::unorm8, PixelType::float32}) {
         EXPECT_EQ(quantise(images, pixel), 1);
         EXPECT_TRUE(std::isnan(row(images)[0]));
     }

@@ -25,7 +25,8 @@ TEST(RealFiles, EveryHdriIsReadFiniteAndNonNegative) {
             EXPECT_EQ(source.repairs.lowest, -1876);
         }
         bool sound = true;
-        for (const float value : source.image.levels[0].texels) sound = sound && std::isfinite(value) && value >= 0;
+        for (const float value : source.image.levels[0].texels)
+            sound = sound && std::isfinite(value) && value >= 0;
         EXPECT_TRUE(sound);
         ++files;
     }

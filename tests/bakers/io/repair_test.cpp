@@ -15,7 +15,9 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 SourceImage read_row(const std::vector<float>& rgb, const std::string& working = "lin_rec709") {
     TempDir dir;
-    write_exr(dir / "a.exr", {.width = static_cast<int>(rgb.size() / 3), .height = 1, .type = "float",
+    write_exr(dir / "a.exr", {.width = static_cast<int>(rgb.size() / 3),
+                              .height = 1,
+                              .type = "float",
                               .value = [&](const std::string& name, int x, int) {
                                   const std::size_t c = name == "R" ? 0 : name == "G" ? 1 : 2;
                                   return rgb[3 * static_cast<std::size_t>(x) + c];

@@ -1,4 +1,4 @@
-// A file cut anywhere is an Error with code 4, or, where only trailing bytes are gone that say nothing, the same picture.
+// A file cut anywhere is an Error with code 4, and a changed one never crashes.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,6 @@ namespace {
 struct Cut {
     std::string name;
     Buffer whole;
-    std::size_t idle = 0;  ///< trailing bytes that may be missing
 };
 
 Buffer load_file(const std::filesystem::path& path) {
@@ -36,13 +35,12 @@ void expect_refused_when_cut(const Cut& cut) {
     TempDir dir;
     const auto path = dir / cut.name;
     write_file(path, cut.whole);
-    const SourceImage whole = read_source({path});
+    EXPECT_NO_THROW(read_source({path}));
     for (const std::size_t size : cuts_of(cut.whole.size())) {
         write_file(path, Buffer(cut.whole.begin(), cut.whole.begin() + static_cast<std::ptrdiff_t>(size)));
         try {
-            const SourceImage source = read_source({path});
-            EXPECT_GE(size + cut.idle, cut.whole.size()) << cut.name << " cut to " << size << " was read";
-            EXPECT_EQ(source.image.levels[0].texels, whole.image.levels[0].texels);
+            read_source({path});
+            ADD_FAILURE() << cut.name << " cut to " << size << " was read";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ExitCode::unreadable_input) << cut.name << " cut to " << size;
             EXPECT_NE(error.where().find(cut.name), std::string::npos);
@@ -66,7 +64,9 @@ Buffer many_samples(int bytes_per_sample) {
 
 TEST(Truncation, FlatHdrIsRefused) { expect_refused_when_cut({"a.hdr", flat_hdr(4, 4, {9, 8, 7, 128})}); }
 TEST(Truncation, CodedHdrIsRefused) { expect_refused_when_cut({"a.hdr", coded_hdr(32, 16, {9, 8, 7, 128})}); }
-TEST(Truncation, IntegerTiffIsRefused) { expect_refused_when_cut({"a.tif", tiff(16, 8, 1, many_samples(1))}); }
+TEST(Truncation, IntegerTiffIsRefused) {
+    expect_refused_when_cut({"a.tif", tiff(16, 8, 1, many_samples(1))});
+}
 TEST(Truncation, FloatTiffIsRefused) {
     expect_refused_when_cut({"a.tif", tiff(16, 8, 4, float_samples(std::vector<float>(16 * 8 * 3, .5f)))});
 }
@@ -76,8 +76,7 @@ TEST(Truncation, JpegIsRefused) { expect_refused_when_cut({"a.jpg", grey_jpeg()}
 TEST(Truncation, PngIsRefused) {
     std::vector<std::uint8_t> rgb;
     for (int i = 0; i < 31 * 17 * 3; ++i) rgb.push_back(static_cast<std::uint8_t>(i * i % 251));
-    // The last chunk, IEND, and the check sum of the pixels before it add nothing to the picture.
-    expect_refused_when_cut({"a.png", encode_png8(31, 17, rgb), 12 + 4 + 4});
+    expect_refused_when_cut({"a.png", encode_png8(31, 17, rgb)});
 }
 TEST(Truncation, ScanlineExrIsRefused) {
     for (const char* compression : {"zip", "none", "piz", "dwab", "rle"}) {

@@ -29,8 +29,8 @@ T azimuth_turns(T x, T y) {
 /// A half vector with density D NoH (Walter et al. 2007, eq. 35-36): tan^2 = alpha^2 u1 / (1 - u1). u1, u2 in [0, 1).
 template <class T>
 Vec3<T> sample_ggx_ndf(T alpha, T u1, T u2) {
-    const T cos2 = (T(1) - u1) / (T(1) + (alpha * alpha - T(1)) * u1);
-    const T sine = std::sqrt(std::max(T(0), alpha * alpha * u1 / (T(1) + (alpha * alpha - T(1)) * u1)));
+    const T sin_part = alpha * alpha * u1, cos_part = T(1) - u1;
+    const T cos2 = cos_part / (cos_part + sin_part), sine = std::sqrt(sin_part / (cos_part + sin_part));
     const SinCos azimuth = sin_cos_pi(2 * static_cast<double>(u2));
     return {sine * static_cast<T>(azimuth.cos), sine * static_cast<T>(azimuth.sin), std::sqrt(cos2)};
 }

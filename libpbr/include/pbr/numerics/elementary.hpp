@@ -25,7 +25,7 @@ double exp_exact(double x);
 /// Binary logarithm; domain and error as log_exact.
 double log2_exact(double x);
 
-/// Angle of (x, y) in (-pi, pi]; atan2_exact(0, 0) is 0, and y = -0 counts as 0. Absolute error <= 5e-16.
+/// Angle of (x, y) in (-pi, pi]; atan2_exact(0, 0) is 0, and y = -0 counts as 0. Absolute error <= 7e-16.
 double atan2_exact(double y, double x);
 
 }  // namespace pbr

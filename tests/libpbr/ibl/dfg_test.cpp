@@ -1,0 +1,149 @@
+#include "pbr/ibl/dfg.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <vector>
+
+#include "pbr/brdf/fresnel.hpp"
+#include "pbr/brdf/ggx.hpp"
+#include "pbr/numerics/sequence.hpp"
+
+namespace pbr {
+namespace {
+
+/// The second witness: adaptive quadrature over directions of light, not half vectors, with D and V as they stand.
+DirectionalAlbedo by_directions_of_light(double NoV, double alpha) {
+    using boost::math::quadrature::gauss_kronrod;
+    const double sin_v = std::sqrt((1 - NoV) * (1 + NoV));
+    const auto integral = [&](bool fresnel) {
+        const auto ring = [&](double NoL) {
+            const double sin_l = std::sqrt((1 - NoL) * (1 + NoL));
+            const auto at = [&](double phi) {  // azimuth away from the mirror direction
+                const double hx = sin_l * std::cos(phi) - sin_v, hy = sin_l * std::sin(phi), hz = NoL + NoV;
+                const double length = std::sqrt(hx * hx + hy * hy + hz * hz);
+                const double sin2 = (hx * hx + hy * hy) / (length * length), VoH = (NoV * hz - sin_v * hx) / length;
+                const double value = D_ggx(hz / length, sin2, alpha) * V_smith_ggx_correlated(NoL, NoV, alpha) * NoL;
+                return fresnel ? value * schlick_weight(VoH) : value;
+            };
+            double sum = 0;
+            const double cuts[] = {0, 0.02, 0.1, 0.4, 1.2, std::numbers::pi};
+            for (int i = 0; i < 5; ++i) sum += gauss_kronrod<double, 31>::integrate(at, cuts[i], cuts[i + 1], 10, 1e-10);
+            return 2 * sum;
+        };
+        double sum = 0;
+        const double cuts[] = {0, NoV * .25, NoV * .5, NoV * .8, NoV * .95, NoV, NoV + (1 - NoV) * .05,
+                               NoV + (1 - NoV) * .2, NoV + (1 - NoV) * .5, 1};
+        for (int i = 0; i < 9; ++i) sum += gauss_kronrod<double, 31>::integrate(ring, cuts[i], cuts[i + 1], 10, 1e-10);
+        return sum;
+    };
+    return {integral(false), integral(true)};
+}
+
+TEST(Dfg, AgreesWithAdaptiveQuadratureOverDirectionsOfLight) {
+    const DfgRule rule = dfg_rule(1e-8);
+    for (const auto& [alpha, NoV] : {std::pair{.1, .1}, {.1, .5}, {.25, .1}, {.5, .5}, {1., .1}, {1., .5}, {.05, .05}}) {
+        const DirectionalAlbedo ours = dfg_ggx(NoV, alpha, rule), witness = by_directions_of_light(NoV, alpha);
+        EXPECT_NEAR(ours.E, witness.E, 1e-8) << alpha << " " << NoV;
+        EXPECT_NEAR(ours.Fc, witness.Fc, 1e-8) << alpha << " " << NoV;
+    }
+}
+
+TEST(Dfg, HasThePublishedValues) {
+    const double rows[][4] = {{.1, .1, .88345407, .30091151},   {.1, .5, .96920499, .03213906},
+                              {.25, .1, .89162235, .13969245},  {.25, .5, .85726344, .02234730},
+                              {.5, .5, .69825070, .01014998},   {1, .1, .76021047, .02386689},
+                              {1, .5, .45069386, .00298874},    {1, 1, 1 - std::log(2.0), 3.361e-5}};
+    for (const auto& row : rows) {
+        const DirectionalAlbedo albedo = dfg_ggx(row[1], row[0], dfg_rule(1e-8));
+        EXPECT_NEAR(albedo.E, row[2], 1e-6) << row[0] << " " << row[1];
+        EXPECT_NEAR(albedo.Fc, row[3], 1e-6) << row[0] << " " << row[1];
+    }
+    EXPECT_NEAR(dfg_ggx(1, 1, dfg_rule(1e-8)).E, 1 - std::log(2.0), 1e-13);
+}
+
+/// Domain of the promised errors: the corners and random points of [0, 1] x [1e-8, 1].
+std::vector<std::pair<double, std::vector<double>>> domain() {
+    std::vector<double> views{0, 1e-8, 1e-6, 1e-4, 1e-3, 0.01, 0.99, 1};
+    for (int i = 0; i < 24; ++i) views.push_back(random_unit(1, i));
+    std::vector<std::pair<double, std::vector<double>>> rows;
+    for (const double alpha : {1e-8, 1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.1, 0.5, 1.0}) rows.emplace_back(alpha, views);
+    for (int i = 0; i < 16; ++i) {
+        std::vector<double> near_alpha = views;
+        const double alpha = std::pow(random_unit(2, i), 4) + 1e-8;
+        for (const double factor : {0.1, 0.5, 1.0, 2.0}) near_alpha.push_back(std::min(1.0, alpha * factor));
+        rows.emplace_back(alpha, near_alpha);
+    }
+    return rows;
+}
+
+TEST(Dfg, EveryRuleKeepsItsPromiseOverTheWholeDomain) {
+    const DfgRule truth{gauss_legendre(120), gauss_legendre(200), 0};
+    const auto rows = domain();
+    for (const double promised : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+        const DfgRule rule = dfg_rule(promised);
+        EXPECT_EQ(rule.max_error, promised);
+        double worst = 0;
+        for (const auto& [alpha, views] : rows) {
+            std::vector<double> E(views.size()), Fc(views.size()), true_E(views.size()), true_Fc(views.size());
+            dfg_ggx_row(views, alpha, rule, E, Fc);
+            dfg_ggx_row(views, alpha, truth, true_E, true_Fc);
+            for (std::size_t i = 0; i < views.size(); ++i)
+                worst = std::max({worst, std::abs(E[i] - true_E[i]), std::abs(Fc[i] - true_Fc[i])});
+        }
+        EXPECT_LE(worst, promised);
+    }
+}
+
+TEST(Dfg, HoldsItsBoundsAndLimits) {
+    const DfgRule rule = dfg_rule(1e-6);
+    for (const auto& [alpha, views] : domain())
+        for (const double NoV : views) {
+            const DirectionalAlbedo albedo = dfg_ggx(NoV, alpha, rule);
+            EXPECT_GE(albedo.Fc, 0);
+            EXPECT_LE(albedo.Fc, albedo.E);
+            EXPECT_LE(albedo.E, 1);
+        }
+    EXPECT_NEAR(dfg_ggx(0, 0.3, rule).E, 1, 1e-6);
+    EXPECT_NEAR(dfg_ggx(0.4, 1e-8, rule).E, 1, 1e-6);
+    EXPECT_NEAR(dfg_ggx(0.4, 1e-8, rule).Fc, std::pow(0.6, 5), 1e-6);
+    EXPECT_EQ(dfg_ggx(0.4, 0, rule).E, 1);
+    EXPECT_EQ(dfg_ggx(0.4, 0, rule).Fc, schlick_weight(0.4));
+    EXPECT_NEAR(dfg_ggx(1e-4, 1e-4, rule).E, 0.89, 0.01);  // the limits don't commute
+}
+
+TEST(Dfg, RowIsBitForBitTheSameAsSingleViews) {
+    std::vector<double> views;
+    for (int i = 0; i < 37; ++i) views.push_back(random_unit(9, i));
+    std::vector<double> E(views.size()), Fc(views.size());
+    const DfgRule rule = dfg_rule(1e-4);
+    dfg_ggx_row(views, 0.2, rule, E, Fc);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const DirectionalAlbedo single = dfg_ggx(views[i], 0.2, rule);
+        EXPECT_EQ(single.E, E[i]);
+        EXPECT_EQ(single.Fc, Fc[i]);
+    }
+}
+
+TEST(Dfg, MonteCarloAgreesWithinFourSigma) {
+    constexpr int kRuns = 64, kSamples = 1000;
+    for (const auto& [alpha, NoV] : {std::pair{.1, .1}, {.1, .5}, {.25, .1}, {.5, .5}, {1., .1}, {1., .5}}) {
+        const DirectionalAlbedo truth = dfg_ggx(NoV, alpha, dfg_rule(1e-8));
+        double sum = 0, squares = 0, sum_fc = 0, squares_fc = 0;
+        for (int run = 0; run < kRuns; ++run) {
+            const DirectionalAlbedo estimate = dfg_ggx_importance_sampled(NoV, alpha, kSamples, random_bits(5, run));
+            sum += estimate.E;
+            squares += estimate.E * estimate.E;
+            sum_fc += estimate.Fc;
+            squares_fc += estimate.Fc * estimate.Fc;
+        }
+        const auto sigma = [](double s, double s2) { return std::sqrt(std::max(0.0, s2 / kRuns - s * s / kRuns / kRuns) / (kRuns - 1)); };
+        EXPECT_NEAR(sum / kRuns, truth.E, 4 * sigma(sum, squares) + 1e-9) << alpha << " " << NoV;
+        EXPECT_NEAR(sum_fc / kRuns, truth.Fc, 4 * sigma(sum_fc, squares_fc) + 1e-9) << alpha << " " << NoV;
+    }
+}
+
+}  // namespace
+}  // namespace pbr
