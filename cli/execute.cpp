@@ -27,11 +27,6 @@ const std::vector<Option>& run_options() {
     return list;
 }
 
-int threads_of(const Given& given) {
-    if (const auto text = given.find("threads")) return integer_option("threads", *text, 1, kMostThreads);
-    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
-}
-
 void print_plan(const run::RunReport& report) {
     for (const run::BakeReport& bake : report.bakes) {
         std::printf("%s (%s)\n", bake.bake->name.c_str(), bake.bake->kind.c_str());
@@ -60,6 +55,11 @@ ExitCode write_extras(const run::RunReport& report, const Given& given) {
 }
 
 }  // namespace
+
+int threads_of(const Given& given) {
+    if (const auto text = given.find("threads")) return integer_option("threads", *text, 1, kMostThreads);
+    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
+}
 
 OptionGroup run_option_group() { return {"running", run_options()}; }
 

@@ -18,10 +18,13 @@ class Progress : public run::Observer {
     void progress(run::Stage stage, double fraction) override;
     void finished(const run::BakeReport& report) override;
 
+  protected:
+    /// Wipes the bar.
+    void clear();
+
   private:
     using Clock = std::chrono::steady_clock;
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-    void clear();
 
     bool quiet_, has_bar_;
     bool is_drawn_ = false;

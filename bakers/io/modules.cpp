@@ -16,7 +16,13 @@ std::vector<std::filesystem::path> module_directories() {
     std::vector<std::filesystem::path> directories;
     std::error_code error;
     const auto executable = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (!error) directories.push_back(executable.parent_path().parent_path() / "lib" / "pbrbake");
+    if (!error) {
+        const auto folder = executable.parent_path();
+        directories.push_back(folder.parent_path() / "lib" / "pbrbake");
+        // Where an installed tree has it, wherever that tree now stands: lib may be lib64 or lib/x86_64-linux-gnu.
+        const auto installed = (folder / PBRBAKE_MODULE_DIR_FROM_PROGRAM).lexically_normal();
+        if (installed != directories.front()) directories.push_back(installed);
+    }
     directories.emplace_back(PBRBAKE_MODULE_DIR);
     return directories;
 }
