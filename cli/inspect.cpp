@@ -47,8 +47,10 @@ void print_certificate(const Json& record) {
     }
     try {
         const Json& certificate = record["certificate"];
-        if (certificate.contains("headline")) print_figure("headline", certificate["headline"]);
-        for (const Json& figure : certificate.at("figures")) print_figure("", figure);
+        const Json headline = certificate.value("headline", Json());
+        if (!headline.is_null()) print_figure("headline", headline);
+        for (const Json& figure : certificate.at("figures"))
+            if (figure != headline) print_figure("", figure);
         for (const auto& [effect, count] : certificate.at("work").items())
             std::printf("%-12s%s %llu\n", "work", effect.c_str(),
                         static_cast<unsigned long long>(count.get<std::uint64_t>()));

@@ -12,7 +12,8 @@ namespace {
 
 void print_help() {
     std::printf(
-        "pbrbake bakes assets for physically based rendering, and says how accurate they are.\n\n"
+        "pbrbake bakes assets for physically based rendering, and says how far they are\n"
+        "from the truth.\n\n"
         "usage: pbrbake COMMAND [OPTIONS]\n\ncommands:\n");
     for (const Command& command : commands())
         std::printf("  %-9s %s\n", command.name.c_str(), command.summary.c_str());

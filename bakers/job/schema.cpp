@@ -55,6 +55,12 @@ const Json* branch_for(const Schema& schema, const Json& value, const Json& bran
     return found;
 }
 
+/// Whether a mistake is known at a pointer or inside it.
+bool has_mistake(const std::vector<Mistake>& mistakes, const std::string& at) {
+    return std::any_of(mistakes.begin(), mistakes.end(),
+                       [&](const Mistake& mistake) { return (mistake.pointer + "/").starts_with(at + "/"); });
+}
+
 void add(std::vector<Mistake>& out, std::string pointer, std::string message) {
     for (const Mistake& mistake : out)
         if (mistake.pointer == pointer && mistake.message == message) return;
@@ -182,7 +188,6 @@ void Schema::explain(const Json& value, const Json& reference, const std::string
                      std::vector<Mistake>& out) const {
     if (accepts(value, reference)) return;
     const Json& node = resolve(reference);
-    const std::size_t before = out.size();
     if ((has_type(node, "object") && !value.is_object()) || (has_type(node, "array") && !value.is_array())) {
         add(out, at, refusal(value, node));
         return;
@@ -196,7 +201,7 @@ void Schema::explain(const Json& value, const Json& reference, const std::string
             explain(value[i], node["items"], step(at, std::to_string(i)), out);
     }
     explain_conditions(value, node, at, out);
-    if (out.size() == before) add(out, at, refusal(value, node));
+    if (!has_mistake(out, at)) add(out, at, refusal(value, node));
 }
 
 void Schema::explain_object(const Json& value, const Json& node, const std::string& at,

@@ -15,7 +15,7 @@ Json inputs_json(const job::Bake& bake, const Inputs& inputs) {
     for (const job::Source& source : bake.sources) {
         const SourceImage& image = inputs.at(source.read.field);
         Json input{{"path", source.read.path}};
-        if (!image.hash.empty()) input["xxh3"] = image.hash;
+        if (!image.hash.empty()) input[source.file.empty() ? "revision" : "xxh3"] = image.hash;
         if (!image.colour_space.empty()) input["colour_space"] = image.colour_space;
         list.push_back(std::move(input));
     }

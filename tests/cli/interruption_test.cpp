@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEndless = R"({"version": 1, "output": "out", "bakes": [
-    {"kind": "dfg", "name": "endless", "size": 4096, "integrator": "is", "samples": 1048576, "certify": "none"}]})";
+    {"kind": "dfg", "name": "endless", "size": 4096, "integrator": "is", "samples": 1024, "certify": "none"}]})";
 
 std::string three_tables(int size) {
     std::string bakes;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -38,12 +39,21 @@ class Program {
         if (failed) throw std::runtime_error("cannot start " PBRBAKE_PROGRAM);
     }
 
+    ~Program() {
+        if (ended_) return;
+        ::kill(pid_, SIGKILL);
+        wait();
+    }
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
     pid_t pid() const { return pid_; }
 
     /// Its exit code, or minus the signal that ended it.
     int wait() {
         int status = 0;
         ::waitpid(pid_, &status, 0);
+        ended_ = true;
         return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     }
 
@@ -53,6 +63,7 @@ class Program {
   private:
     TemporaryFolder streams_;
     pid_t pid_ = -1;
+    bool ended_ = false;
 };
 
 struct Outcome {

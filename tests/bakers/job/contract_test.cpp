@@ -76,8 +76,9 @@ TEST(JobSchema, DescribesEveryProperty) {
     const job::Schema& schema = job::job_schema();
     for (const Baker& baker : bakers())
         for (const auto& [name, property] : definition(baker.kind)["properties"].items())
-            if (name != "kind")
+            if (name != "kind") {
                 EXPECT_NE(schema.keyword(property, "description"), nullptr) << baker.kind << " " << name;
+            }
 }
 
 TEST(JobSchema, GivesEveryOptionalPropertyAValidDefault) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "bakers/job/json_text.hpp"
 
 namespace pbrbake::job {
@@ -41,16 +43,16 @@ TEST(Flags, AreTheSchemasProperties) {
 }
 
 TEST(Flags, TellWhatTheyTake) {
+    std::map<std::string, Flag> flags;
     for (const Flag& flag : flags_of("dfg")) {
         EXPECT_NE(flag.help, "") << flag.name;
-        if (flag.name == "size") {
-            EXPECT_EQ(flag.value, "N|N,N");
-            EXPECT_THAT(flag.help,
-                        testing::EndsWith("[integer 1 to 4096, or an array of 2 of those; default: 128]"));
-        }
-        if (flag.name == "flip-rows") EXPECT_TRUE(flag.is_switch);
-        if (flag.name == "accuracy") EXPECT_EQ(flag.value, "draft|production|reference|X");
+        flags[flag.name] = flag;
     }
+    EXPECT_EQ(flags["size"].value, "N|N,N");
+    EXPECT_THAT(flags["size"].help,
+                testing::EndsWith("[integer 1 to 4096, or an array of 2 of those; default: 128]"));
+    EXPECT_TRUE(flags["flip-rows"].is_switch);
+    EXPECT_EQ(flags["accuracy"].value, "draft|production|reference|X");
 }
 
 TEST(Flags, BecomeJson) {
@@ -64,7 +66,7 @@ TEST(Flags, BecomeJson) {
     EXPECT_EQ(param("dfg", "accuracy", "draft", "accuracy"), "draft");
     EXPECT_EQ(param("dfg", "accuracy", "1e-3", "accuracy"), (Json{{"max_error", 1e-3}}));
     EXPECT_EQ(param("probe", "samples", "32", "samples"), 32);
-    EXPECT_EQ(param("probe", "samples", "1,16,32", "samples"), Json::array({1, 16, 32}));
+    EXPECT_EQ(param("probe", "samples", "1,16,32,32,64,64", "samples"), Json::array({1, 16, 32, 32, 64, 64}));
     EXPECT_EQ(param("probe", "rotate-deg", "-30", "rotate_deg"), -30.0);
 }
 
