@@ -65,8 +65,6 @@ namespace {
 
 HWY_EXPORT(add_block);
 
-constexpr int kOrders[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128};
-
 /// Points a texel needs at an angle from the lobe's axis: Gauss-Legendre over a texel of angle h converges once h is well
 /// below the distance of the kernel's poles, which is about hypot(2 alpha, angle).
 int order_index(double texel_angle, double alpha, double nearest_angle) {
@@ -74,7 +72,7 @@ int order_index(double texel_angle, double alpha, double nearest_angle) {
     if (reach < 0.02) return 0;
     const double wanted = 1.5 + 4 * reach;
     int index = 1;
-    while (index + 1 < static_cast<int>(std::size(kOrders)) && kOrders[index] < wanted) ++index;
+    while (index + 1 < static_cast<int>(std::size(PatchBlocks::kOrders)) && PatchBlocks::kOrders[index] < wanted) ++index;
     return index;
 }
 
@@ -109,17 +107,17 @@ double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dv
     };
     for (std::size_t g = 0; g < group_count; ++g) cones[g] = fill_group(of_group(g), groups[g]);
 
-    std::vector<PatchPoints> by_order(std::size(kOrders));
+    std::vector<PatchPoints> by_order(std::size(PatchBlocks::kOrders));
     for (int block = 0; block < source.count(); ++block) {
         const Cone& cone = source.cone(block);
-        for (PatchPoints& points : by_order) points.clear();
+        for (PatchPoints& points : by_order) points.resize(0);
         for (std::size_t g = 0; g < group_count; ++g) {
             const double apart = 2 * std::asin(std::min(1.0, glm::length(cones[g].axis - cone.axis) / 2));
             const double nearest = std::max(0.0, apart - cones[g].half_angle - cone.half_angle);
             if (nearest > std::numbers::pi / 2) continue;  // wholly below the horizon
             const int index = order_index(source.texel_angle(), alpha, nearest);
             PatchPoints& points = by_order[static_cast<std::size_t>(index)];
-            if (points.size() == 0) source.points(block, kOrders[index], points);
+            if (points.size() == 0) source.points(block, index, points);
             HWY_DYNAMIC_DISPATCH(add_block)(points, static_cast<float>(alpha * alpha), groups[g]);
             evaluations += points.size() * kLdGroup;
         }
