@@ -1,6 +1,6 @@
 #include "bakers/context.hpp"
 
-#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,7 +10,9 @@
 namespace pbrbake {
 
 struct Context::Arena {
-    explicit Arena(int threads) : arena(threads) {}
+    explicit Arena(int threads)
+        : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
+    tbb::global_control limit;  // else oneTBB caps an arena at the machine's threads, and says so on stderr
     tbb::task_arena arena;
 };
 

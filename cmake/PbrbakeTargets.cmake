@@ -9,7 +9,9 @@ target_compile_options(pbrbake_flags INTERFACE
     $<$<BOOL:${PBRBAKE_WERROR}>:-Werror>)
 if(PBRBAKE_SANITIZE)
     target_compile_options(pbrbake_flags INTERFACE -fsanitize=${PBRBAKE_SANITIZE} -fno-omit-frame-pointer
-                           -fno-sanitize-recover=undefined)
+                           -fno-sanitize-recover=undefined
+                           # GCC's warning is not to be had with sanitizers: they hide initialisation from it
+                           $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     target_link_options(pbrbake_flags INTERFACE -fsanitize=${PBRBAKE_SANITIZE})
 endif()
 

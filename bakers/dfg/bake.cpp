@@ -9,7 +9,8 @@ namespace pbrbake::dfg {
 namespace {
 
 /// E and Fc of row y, by the integrator asked for.
-void ggx_row(const DfgParams& params, const pbr::DfgRule& rule, int y, std::vector<double>& E, std::vector<double>& Fc) {
+void ggx_row(const DfgParams& params, const pbr::DfgRule& rule, int y, const Context& context, std::vector<double>& E,
+             std::vector<double>& Fc) {
     std::vector<double> NoV(params.width());
     for (int x = 0; x < params.width(); ++x) NoV[x] = nov_of_column(params, x);
     const double alpha = pbr::alpha_from_perceptual_roughness(perceptual_roughness_of_row(params, y));
@@ -18,6 +19,7 @@ void ggx_row(const DfgParams& params, const pbr::DfgRule& rule, int y, std::vect
         return;
     }
     for (int x = 0; x < params.width(); ++x) {
+        context.check_cancelled();  // a texel of many samples takes a while
         const std::uint64_t seed = pbr::random_bits(params.seed, x, y);
         const pbr::DirectionalAlbedo albedo = pbr::dfg_ggx_importance_sampled(NoV[x], alpha, params.samples, seed);
         E[x] = albedo.E;
@@ -62,7 +64,7 @@ Product bake(const DfgParams& params, const Inputs&, Context& context) {
     context.parallel_for(height, 4, [&](std::int64_t begin, std::int64_t end) {
         std::vector<double> E(width), Fc(width);
         for (int y = static_cast<int>(begin); y < end; ++y) {
-            if (ggx) ggx_row(params, rule, y, E, Fc);
+            if (ggx) ggx_row(params, rule, y, context, E, Fc);
             const double perceptual_roughness = perceptual_roughness_of_row(params, y);
             for (int x = 0; x < width; ++x) {
                 const double diffuse = disney ? disney_albedo(params, nov_of_column(params, x), perceptual_roughness) : 0;

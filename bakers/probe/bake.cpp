@@ -66,11 +66,11 @@ double work_of_texel(const ProbeParams& params, int level, const Environment& en
     return 6 * n * n / 8;
 }
 
-/// Texels a side of the pyramid that samples read: eight across the half width of the narrowest lobe (finer ones change
-/// no digit of the result), but no more than the source has.
+/// Texels a side of the pyramid that samples read: about ten across the narrowest lobe (finer ones change no digit of the
+/// result), but not below a quarter of the source's texels, whose edges it then shows exactly enough.
 int pyramid_size(const ProbeParams& params, const Environment& environment) {
     const double alpha = pbr::alpha_from_perceptual_roughness(perceptual_roughness_of_level(params, 1));
-    const double wanted = std::min({8 / alpha, static_cast<double>(environment.equivalent_size()), kLargestPyramid});
+    const double wanted = std::min({8 / alpha, 4.0 * environment.equivalent_size(), kLargestPyramid});
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(wanted))));
 }
 

@@ -28,7 +28,8 @@ glm::dvec3 mix(const glm::dvec3& a, const glm::dvec3& b, double t) { return a + 
 constexpr double kSunHalfAngle = 0.00465;      // rad: .53 degrees across
 constexpr double kSunIlluminance = 100'000.0;  // lx, on a plane facing it; 1.47e9 cd/m^2 over 6.79e-5 sr
 
-glm::dvec3 sun_direction() { return glm::normalize(glm::dvec3(-0.5, 1, std::sqrt(0.75))); }
+/// 45 degrees high, in the middle of a texel, which then lies wholly inside the disk and shows its full luminance.
+glm::dvec3 sun_direction() { return pbr::equirect_direction(597.5 / kWidth, 127.5 / kHeight); }
 
 glm::dvec3 clear_sky(const glm::dvec3& d) {
     if (d.y < 0)  // (100 klx sin 45 deg + about 15 klx of sky) * .2 / pi, darker straight below where things cast shadows

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bakers/probe/chain.hpp"
@@ -18,10 +20,10 @@ namespace {
 
 /// A tile of 4 x 4 texels is checked together, since the exact sum shares its work among neighbours.
 constexpr int kTile = 4;
+constexpr int kTilesACall = 8;
 
 struct TileError {
     double squared = 0;  ///< mean over the tile of (stored - true)^2, all channels
-    double mean = 0;     ///< mean of the truth
     double largest = 0;  ///< largest |stored - true|
 };
 
@@ -46,40 +48,50 @@ std::vector<Place> all_places(int size) {
     return places;
 }
 
-TileError tile_error(const pbr::PatchBlocks& blocks, double alpha, const Product& product, int level, int size,
-                     const Place& place, Context& context) {
-    const int side = std::min(kTile, size);
-    const auto [face, left, top] = place;
+/// Errors of some tiles of a level. One call of the exact sum serves them all: it decodes the source once.
+void tile_errors(const pbr::PatchBlocks& blocks, double alpha, const Product& product, int level, int size,
+                 std::span<const Place> places, std::span<TileError> errors, Context& context) {
+    const int side = std::min(kTile, size), texels = side * side;
     std::vector<glm::dvec3> directions;
-    for (int i = 0; i < side * side; ++i)
-        directions.push_back(pbr::cubemap_texel_direction({face, left + i % side, top + i / side}, size));
+    for (const auto& [face, left, top] : places)
+        for (int i = 0; i < texels; ++i)
+            directions.push_back(pbr::cubemap_texel_direction({face, left + i % side, top + i / side}, size));
     std::vector<double> truth(directions.size() * 3);
     std::uint64_t evaluations = 0;
     pbr::ld_exact(blocks, alpha, directions, truth, evaluations);
     context.count("certify.ld.kernel", evaluations);
-    TileError error;
-    for (int i = 0; i < side * side; ++i)
-        for (int c = 0; c < 3; ++c) {
-            const double stored = product.images[0].texel(level, face, top + i / side, left + i % side)[c] / product.scale;
-            const double exact = truth[static_cast<std::size_t>(i * 3 + c)], difference = std::abs(stored - exact);
-            error.squared += difference * difference;
-            error.mean += exact;
-            error.largest = std::max(error.largest, difference);
-        }
-    error.squared /= side * side * 3;
-    error.mean /= side * side * 3;
-    return error;
+    const double* exact = truth.data();
+    for (std::size_t tile = 0; tile < places.size(); ++tile) {
+        const auto [face, left, top] = places[tile];
+        TileError& error = errors[tile];
+        for (int i = 0; i < texels; ++i)
+            for (int c = 0; c < 3; ++c) {
+                const double stored = product.images[0].texel(level, face, top + i / side, left + i % side)[c];
+                const double difference = std::abs(stored / product.scale - *exact++);
+                error.squared += difference * difference / (texels * 3);
+                error.largest = std::max(error.largest, difference);
+            }
+    }
 }
 
-/// How many tiles a level can afford, so that checking costs no more than the bake: an exact texel costs about as many
-/// kernel evaluations as the upper half of the source has texels, each about a fifth of a filtered sample.
+/// How many tiles a level can afford, so that checking costs no more than the bake: an exact texel costs as many kernel
+/// evaluations as about half the source has texels, each a tenth of a filtered sample's time.
 int tiles_of_level(const ProbeParams& params, const Environment& environment, int level) {
+    constexpr double kFewest = 6, kMost = 64;
     const double n = environment.equivalent_size(), size = size_of_level(params, level);
-    const double exact_texel = 6 * n * n / 2 / 5;
-    const double baked_level = 6 * size * size * samples_of_level(params, std::min(level, level_count(params) - 1));
-    const double affordable = baked_level / (exact_texel * kTile * kTile);
     const double whole = std::max(1.0, 6 * size * size / (kTile * kTile));
-    return static_cast<int>(std::min({std::clamp(affordable, 6.0, 64.0), whole}));
+    if (params.integrator == Integrator::reference) return static_cast<int>(std::min(kMost, whole));
+    const double exact_texel = 6 * n * n / 2 / 10;
+    const double affordable = 6 * size * size * samples_of_level(params, level) / (exact_texel * kTile * kTile);
+    return static_cast<int>(std::min(std::clamp(affordable, kFewest, kMost), whole));
+}
+
+/// Mean of a level's stored values over texels and channels.
+double mean_of_level(const Product& product, int level) {
+    const std::vector<float>& texels = product.images[0].levels[static_cast<std::size_t>(level)].texels;
+    pbr::CompensatedSum sum;
+    for (const float value : texels) sum += static_cast<double>(value);
+    return sum.value() / static_cast<double>(texels.size()) / product.scale;
 }
 
 /// Mean radiance of a level, weighted by solid angle: its energy over 4 pi. Sum of channels.
@@ -96,31 +108,20 @@ double energy(const Image& image, int level) {
     return flux.value();
 }
 
-Figure relative_rmse(const std::vector<TileError>& tiles, int level, bool all, double& largest) {
-    double squared = 0, mean = 0;
-    largest = 0;
-    for (const TileError& tile : tiles) {
-        squared += tile.squared;
-        mean += tile.mean;
-        largest = std::max(largest, tile.largest);
-    }
-    const double count = static_cast<double>(tiles.size());
-    squared /= count;
-    mean /= count;
-    double variance = 0;
+Figure relative_rmse(const std::vector<TileError>& tiles, int level, double mean, bool all) {
+    const double count = static_cast<double>(tiles.size()), safe_mean = mean > 0 ? mean : 1;
+    double squared = 0, variance = 0;
+    for (const TileError& tile : tiles) squared += tile.squared / count;
     for (const TileError& tile : tiles) variance += (tile.squared - squared) * (tile.squared - squared);
+    const double value = std::sqrt(squared) / safe_mean;
+    if (all) return {"relative_rmse", value, Evidence::measured, "all stored texels against the exact sum", {}, level};
     const double half_width = tiles.size() > 1 ? 1.96 * std::sqrt(variance / (count * (count - 1))) : squared;
-    const double safe_mean = mean > 0 ? mean : 1;
-    largest /= safe_mean;
-    if (all)
-        return {"relative_rmse", std::sqrt(squared) / safe_mean, Evidence::measured,
-                "all stored texels against the exact sum", {}, level};
-    Figure figure{"relative_rmse", std::sqrt(squared) / safe_mean, Evidence::estimate,
-                  "stored texels against the exact sum, " + std::to_string(tiles.size()) + " tiles of " +
-                      std::to_string(kTile) + " x " + std::to_string(kTile) + " texels chosen by hash", {}, level};
-    figure.interval = {std::sqrt(std::max(0.0, squared - half_width)) / safe_mean,
-                       std::sqrt(squared + half_width) / safe_mean};
-    return figure;
+    return {"relative_rmse", value, Evidence::estimate,
+            "stored texels against the exact sum, " + std::to_string(tiles.size()) + " tiles of up to " +
+                std::to_string(kTile) + " x " + std::to_string(kTile) + " texels chosen by hash",
+            std::pair{std::sqrt(std::max(0.0, squared - half_width)) / safe_mean,
+                      std::sqrt(squared + half_width) / safe_mean},
+            level};
 }
 
 }  // namespace
@@ -138,13 +139,15 @@ Certificate certify(const ProbeParams& params, const Inputs& inputs, const Produ
         for (int i = 0; !context.certify_fully() && i < tiles_of_level(params, environment, l); ++i)
             places.push_back(random_place(size, pbr::random_bits(params.seed, 0x6365u, l, i)));
         std::vector<TileError> tiles(places.size());
-        context.parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t i = begin; i < end; ++i)
-                tiles[static_cast<std::size_t>(i)] = tile_error(blocks, alpha, product, l, size,
-                                                                places[static_cast<std::size_t>(i)], context);
+        context.parallel_for(static_cast<std::int64_t>(tiles.size()), kTilesACall, [&](std::int64_t begin, std::int64_t end) {
+            const auto first = static_cast<std::size_t>(begin), count = static_cast<std::size_t>(end - begin);
+            tile_errors(blocks, alpha, product, l, size, std::span(places).subspan(first, count),
+                        std::span(tiles).subspan(first, count), context);
         });
+        const double mean = mean_of_level(product, l);
         double largest = 0;
-        Figure rmse = relative_rmse(tiles, l, context.certify_fully(), largest);
+        for (const TileError& tile : tiles) largest = std::max(largest, tile.largest / (mean > 0 ? mean : 1));
+        const Figure rmse = relative_rmse(tiles, l, mean, context.certify_fully());
         if (!certificate.headline || rmse.value > certificate.headline->value) certificate.headline = rmse;
         certificate.figures.push_back(rmse);
         certificate.figures.push_back({"max_error_over_mean", largest, rmse.evidence, rmse.method, {}, l});

@@ -130,6 +130,7 @@ class BakeRun {
 
     void certify() {
         const auto context = this->context(Stage::certify);
+        context->set_certify_fully(bake_.certify == job::Certify::full);
         certificate_ = bake_.baker->certify(bake_.json, inputs_, product_, *context);
         report_.certify_evaluations = context->counts();
     }
@@ -138,7 +139,7 @@ class BakeRun {
         const io::FileInfo info{bake_.pixel, metadata(job_, bake_, product_)};
         for (const Image& image : product_.images) {
             const fs::path file = files_.empty() ? fs::path(bake_.file) : named_file(image.name);
-            const std::vector<std::byte> bytes = io::encode(bake_.format, image, info);
+            std::vector<std::byte> bytes = io::encode(bake_.format, image, info);
             outputs_.push_back({file, io::hash_bytes(bytes.data(), bytes.size()), bytes.size()});
             files_.push_back(std::move(bytes));
         }

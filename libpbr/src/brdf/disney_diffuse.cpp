@@ -1,5 +1,7 @@
 #include "pbr/brdf/disney_diffuse.hpp"
 
+#include <algorithm>
+
 #include "pbr/numerics/quadrature.hpp"
 
 namespace pbr {
@@ -21,7 +23,7 @@ double albedo(double NoV, double perceptual_roughness, double base) {
             perceptual_roughness * perceptual_roughness * (1 - NoL * NoL) * (1 - NoV * NoV);
         sum += rule.weights[i] * 2 * NoL * (1 + (a + b) * g0 + a * b * (g0 * g0 + g1_squared / 2));
     }
-    return sum;
+    return std::max(0.0, sum);  // 0 at NoV = r = 0, but for rounding
 }
 
 }  // namespace

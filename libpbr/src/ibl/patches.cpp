@@ -17,18 +17,8 @@ constexpr int kBlockSide = 8;
 
 }  // namespace
 
-void PatchPoints::clear() {
-    for (std::vector<float>* array : {&x, &y, &z, &weight, &r, &g, &b}) array->clear();
-}
-
-void PatchPoints::add(const glm::dvec3& direction, double solid_angle, const float* rgb) {
-    x.push_back(static_cast<float>(direction.x));
-    y.push_back(static_cast<float>(direction.y));
-    z.push_back(static_cast<float>(direction.z));
-    weight.push_back(static_cast<float>(solid_angle));
-    r.push_back(rgb[0]);
-    g.push_back(rgb[1]);
-    b.push_back(rgb[2]);
+void PatchPoints::resize(std::size_t count) {
+    for (std::vector<float>* array : {&x, &y, &z, &weight, &r, &g, &b}) array->resize(count);
 }
 
 PatchBlocks::PatchBlocks(const EquirectView& source)
@@ -48,6 +38,8 @@ glm::dvec3 PatchBlocks::direction(int face, double x, double y) const {
 }
 
 void PatchBlocks::add_blocks(int face, int width, int height) {
+    if (rules_.empty())
+        for (const int order : kOrders) rules_.push_back(gauss_legendre(order));
     for (int y = 0; y < height; y += kBlockSide)
         for (int x = 0; x < width; x += kBlockSide) {
             Block block{face, x, y, std::min(kBlockSide, width - x), std::min(kBlockSide, height - y), {}};
@@ -65,35 +57,82 @@ void PatchBlocks::add_blocks(int face, int width, int height) {
         }
 }
 
-void PatchBlocks::points(int index, int order, PatchPoints& points) const {
+void PatchBlocks::points(int index, int order_index, PatchPoints& points) const {
     const Block& block = blocks_[index];
-    const QuadratureRule rule = gauss_legendre(order);
-    points.clear();
+    const QuadratureRule& rule = rules_[order_index];
+    const std::size_t nodes = static_cast<std::size_t>(rule.size());
+    points.resize(nodes * nodes * block.width * block.height);
+    if (cube_.rgb) {
+        cube_points(block, rule, points);
+    } else {
+        equirect_points(block, rule, points);
+    }
+}
+
+void PatchBlocks::equirect_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const {
+    // The points are a product of longitudes and colatitudes: sines and cosines are taken along the axes alone.
+    const std::size_t order = static_cast<std::size_t>(rule.size());
+    std::vector<SinCos> longitudes(order * block.width), colatitudes(order * block.height);
+    for (std::size_t i = 0; i < longitudes.size(); ++i)
+        longitudes[i] = sin_cos_pi(1 - 2 * (block.x + static_cast<int>(i / order) + rule.nodes[i % order]) / equirect_.width);
+    for (std::size_t i = 0; i < colatitudes.size(); ++i)
+        colatitudes[i] = sin_cos_pi((block.y + static_cast<int>(i / order) + rule.nodes[i % order]) / equirect_.height);
+    const glm::dmat3 to_world = glm::transpose(equirect_.world_to_source);  // it is orthogonal
+    const double half_row = sin_cos_pi(0.5 / equirect_.height).sin;
+
+    std::size_t at = 0;
+    for (int y = 0; y < block.height; ++y) {
+        // Solid angle of a texel (cos a - cos b without cancellation), and the sum its points' sines have.
+        const double exact = 2 * std::numbers::pi / equirect_.width * 2 *
+                             sin_cos_pi((block.y + y + 0.5) / equirect_.height).sin * half_row;
+        double sines = 0;
+        for (std::size_t b = 0; b < order; ++b) sines += rule.weights[b] * colatitudes[y * order + b].sin;
+        for (std::size_t b = 0; b < order; ++b) {
+            const SinCos colatitude = colatitudes[y * order + b];
+            const double row_weight = exact * rule.weights[b] * colatitude.sin / sines;
+            const glm::dvec3 up = to_world[1] * colatitude.cos;
+            const glm::dvec3 right = to_world[0] * colatitude.sin, ahead = to_world[2] * colatitude.sin;
+            for (std::size_t i = 0; i < longitudes.size(); ++i, ++at) {
+                const glm::dvec3 d = up + right * longitudes[i].sin + ahead * longitudes[i].cos;
+                const float* rgb = equirect_.texel(block.x + static_cast<int>(i / order), block.y + y);
+                points.x[at] = static_cast<float>(d.x);
+                points.y[at] = static_cast<float>(d.y);
+                points.z[at] = static_cast<float>(d.z);
+                points.weight[at] = static_cast<float>(row_weight * rule.weights[i % order]);
+                points.r[at] = rgb[0];
+                points.g[at] = rgb[1];
+                points.b[at] = rgb[2];
+            }
+        }
+    }
+}
+
+void PatchBlocks::cube_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const {
+    // The measure on a face is (1 + s^2 + t^2)^-3/2 ds dt.
+    const double n = cube_.size;
+    std::size_t at = 0;
     for (int y = block.y; y < block.y + block.height; ++y)
         for (int x = block.x; x < block.x + block.width; ++x) {
-            const float* rgb = cube_.rgb ? cube_.texel(block.face, x, y) : equirect_.texel(x, y);
-            double exact, sum = 0;
-            if (cube_.rgb) {
-                exact = cubemap_texel_solid_angle(cube_.size, x, y);
-            } else {
-                const double h = equirect_.height;  // cos a - cos b without cancellation
-                exact = 2 * std::numbers::pi / equirect_.width * 2 * sin_cos_pi((y + 0.5) / h).sin * sin_cos_pi(0.5 / h).sin;
-            }
-            // The measure varies within a texel like sin(theta), or like (1 + s^2 + t^2)^-3/2 on a cube.
-            const auto measure = [&](double i, double j) {
-                if (!cube_.rgb) return sin_cos_pi(j / equirect_.height).sin;
-                const double s = 2 * i / cube_.size - 1, t = 2 * j / cube_.size - 1, q = 1 + s * s + t * t;
-                return 1 / (q * std::sqrt(q));
-            };
-            for (int b = 0; b < order; ++b)
-                for (int a = 0; a < order; ++a)
-                    sum += rule.weights[a] * rule.weights[b] * measure(x + rule.nodes[a], y + rule.nodes[b]);
-            for (int b = 0; b < order; ++b)
-                for (int a = 0; a < order; ++a) {
-                    const double px = x + rule.nodes[a], py = y + rule.nodes[b];
-                    const double share = rule.weights[a] * rule.weights[b] * measure(px, py) / sum;
-                    points.add(direction(block.face, px, py), exact * share, rgb);
+            const float* rgb = cube_.texel(block.face, x, y);
+            const std::size_t first = at;
+            double sum = 0;
+            for (int b = 0; b < rule.size(); ++b)
+                for (int a = 0; a < rule.size(); ++a, ++at) {
+                    const double s = 2 * (x + rule.nodes[a]) / n - 1, t = 2 * (y + rule.nodes[b]) / n - 1;
+                    const double inverse_length = 1 / std::sqrt(1 + s * s + t * t);
+                    const double share = rule.weights[a] * rule.weights[b] * inverse_length * inverse_length * inverse_length;
+                    const glm::dvec3 d = cube_vector(block.face, s, t) * inverse_length;
+                    points.x[at] = static_cast<float>(d.x);
+                    points.y[at] = static_cast<float>(d.y);
+                    points.z[at] = static_cast<float>(d.z);
+                    points.weight[at] = static_cast<float>(share);
+                    points.r[at] = rgb[0];
+                    points.g[at] = rgb[1];
+                    points.b[at] = rgb[2];
+                    sum += share;
                 }
+            const float to_exact = static_cast<float>(cubemap_texel_solid_angle(cube_.size, x, y) / sum);
+            for (std::size_t i = first; i < at; ++i) points.weight[i] *= to_exact;
         }
 }
 

@@ -21,13 +21,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kFlush = 256;  // points summed in float before the sum moves on to double
 
-/// Adds k(n.d) * weight * radiance of all points to the group's sums; the constant factor of k is left to the caller.
-void add_block(const PatchPoints& points, float alpha2, LdGroup& group) {
+/// Adds k(n.d) * weight * radiance of all points to the group's sums. With its `normalisation`, k * weight is a share of
+/// the lobe: sums of radiances near the largest float don't overflow.
+void add_block(const PatchPoints& points, float alpha2, float normalisation, LdGroup& group) {
     const hn::CappedTag<float, kLdGroup> d;
     using V = hn::Vec<decltype(d)>;
     const std::size_t lanes = hn::Lanes(d);
     // f = alpha^2 + (1 - alpha^2)/4 |n - d|^2 and mu = 1 - |n - d|^2 / 2 (see ibl/zonal_kernel.hpp).
     const V a2 = hn::Set(d, alpha2), slope = hn::Set(d, (1 - alpha2) / 4), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
+    const V factor = hn::Set(d, normalisation);
     for (std::size_t first = 0; first < points.size(); first += kFlush) {
         const std::size_t last = std::min(points.size(), first + kFlush);
         for (std::size_t begin = 0; begin < kLdGroup; begin += lanes) {
@@ -39,7 +41,7 @@ void add_block(const PatchPoints& points, float alpha2, LdGroup& group) {
                 const V chord2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
                 const V mu = hn::Max(hn::Zero(d), hn::Sub(one, hn::Mul(half, chord2)));
                 const V f = hn::Add(a2, hn::Mul(slope, chord2));
-                const V k = hn::Div(hn::Mul(mu, hn::Set(d, points.weight[i])), hn::Mul(f, f));
+                const V k = hn::Div(hn::Mul(hn::Mul(mu, factor), hn::Set(d, points.weight[i])), hn::Mul(f, f));
                 r = hn::Add(r, hn::Mul(k, hn::Set(d, points.r[i])));
                 g = hn::Add(g, hn::Mul(k, hn::Set(d, points.g[i])));
                 b = hn::Add(b, hn::Mul(k, hn::Set(d, points.b[i])));
@@ -65,8 +67,6 @@ namespace {
 
 HWY_EXPORT(add_block);
 
-constexpr int kOrders[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128};
-
 /// Points a texel needs at an angle from the lobe's axis: Gauss-Legendre over a texel of angle h converges once h is well
 /// below the distance of the kernel's poles, which is about hypot(2 alpha, angle).
 int order_index(double texel_angle, double alpha, double nearest_angle) {
@@ -74,7 +74,7 @@ int order_index(double texel_angle, double alpha, double nearest_angle) {
     if (reach < 0.02) return 0;
     const double wanted = 1.5 + 4 * reach;
     int index = 1;
-    while (index + 1 < static_cast<int>(std::size(kOrders)) && kOrders[index] < wanted) ++index;
+    while (index + 1 < static_cast<int>(std::size(PatchBlocks::kOrders)) && PatchBlocks::kOrders[index] < wanted) ++index;
     return index;
 }
 
@@ -109,18 +109,19 @@ double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dv
     };
     for (std::size_t g = 0; g < group_count; ++g) cones[g] = fill_group(of_group(g), groups[g]);
 
-    std::vector<PatchPoints> by_order(std::size(kOrders));
+    std::vector<PatchPoints> by_order(std::size(PatchBlocks::kOrders));
     for (int block = 0; block < source.count(); ++block) {
         const Cone& cone = source.cone(block);
-        for (PatchPoints& points : by_order) points.clear();
+        for (PatchPoints& points : by_order) points.resize(0);
         for (std::size_t g = 0; g < group_count; ++g) {
             const double apart = 2 * std::asin(std::min(1.0, glm::length(cones[g].axis - cone.axis) / 2));
             const double nearest = std::max(0.0, apart - cones[g].half_angle - cone.half_angle);
             if (nearest > std::numbers::pi / 2) continue;  // wholly below the horizon
             const int index = order_index(source.texel_angle(), alpha, nearest);
             PatchPoints& points = by_order[static_cast<std::size_t>(index)];
-            if (points.size() == 0) source.points(block, kOrders[index], points);
-            HWY_DYNAMIC_DISPATCH(add_block)(points, static_cast<float>(alpha * alpha), groups[g]);
+            if (points.size() == 0) source.points(block, index, points);
+            HWY_DYNAMIC_DISPATCH(add_block)
+            (points, static_cast<float>(alpha * alpha), static_cast<float>(kernel.normalisation()), groups[g]);
             evaluations += points.size() * kLdGroup;
         }
     }
@@ -129,7 +130,7 @@ double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dv
     for (std::size_t i = 0; i < directions.size(); ++i) {
         const LdGroup& group = groups[i / kLdGroup];
         const std::size_t lane = i % kLdGroup;
-        deviation = std::max(deviation, std::abs(group.sum[3][lane] * kernel.normalisation() - 1));
+        deviation = std::max(deviation, std::abs(group.sum[3][lane] - 1));
         for (int c = 0; c < 3; ++c) rgb_out[i * 3 + c] = group.sum[c][lane] / group.sum[3][lane];
     }
     return deviation;

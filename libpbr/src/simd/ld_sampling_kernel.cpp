@@ -31,12 +31,12 @@ struct Fetches {
     HWY_ALIGN_MAX std::int32_t stride[2][kChunk];  ///< of a row, in floats
     HWY_ALIGN_MAX float fx[2][kChunk];
     HWY_ALIGN_MAX float fy[2][kChunk];
-    HWY_ALIGN_MAX float blend[kChunk];  ///< weight of the second level
+    HWY_ALIGN_MAX float share[2][kChunk];  ///< weights of the two levels; all samples' sum to 1, so huge texels don't overflow
 };
 
 template <class D, class V = hn::Vec<D>>
-void address(D d, const CubePyramid& pyramid, const std::int32_t* level_offsets, V x, V y, V z, V lod, int at,
-             Fetches& out) {
+void address(D d, const CubePyramid& pyramid, const std::int32_t* level_offsets, V x, V y, V z, V lod, float share,
+             int at, Fetches& out) {
     const hn::Rebind<std::int32_t, D> di;
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const V ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
@@ -64,7 +64,9 @@ void address(D d, const CubePyramid& pyramid, const std::int32_t* level_offsets,
     const float top = static_cast<float>(pyramid.levels() - 1);
     const V level = hn::Min(hn::Max(hn::Add(lod, hn::Mul(log2_q, hn::Set(d, 0.75f))), zero), hn::Set(d, top));
     const auto first = hn::ConvertTo(di, level);
-    hn::Store(hn::Sub(level, hn::ConvertTo(d, first)), d, out.blend + at);
+    const V blend = hn::Sub(level, hn::ConvertTo(d, first));
+    hn::Store(hn::Mul(hn::Sub(one, blend), hn::Set(d, share)), d, out.share[0] + at);
+    hn::Store(hn::Mul(blend, hn::Set(d, share)), d, out.share[1] + at);
 
     const int log2_size = std::countr_zero(static_cast<unsigned>(pyramid.size()));
     const V s01 = hn::Mul(hn::Add(s, one), hn::Set(d, 0.5f)), t01 = hn::Mul(hn::Add(t, one), hn::Set(d, 0.5f));
@@ -99,10 +101,9 @@ void fetch(const float* texels, const Fetches& f, int count, float* sum) {
                 const float* p = texels + f.offset[k][i] + half;
                 const V fy = hn::Set(d, f.fy[k][i]), one = hn::Set(d, 1.0f), fx = hn::Set(d, f.fx[k][i]);
                 const V wx = hn::IfThenElse(right, fx, hn::Sub(one, fx));
-                const V blend = hn::Set(d, k == 0 ? 1.0f - f.blend[i] : f.blend[i]);
                 const V column = hn::Add(hn::Mul(hn::LoadU(d, p), hn::Sub(one, fy)),
                                          hn::Mul(hn::LoadU(d, p + f.stride[k][i]), fy));
-                acc = hn::Add(acc, hn::Mul(column, hn::Mul(wx, blend)));
+                acc = hn::Add(acc, hn::Mul(column, hn::Mul(wx, hn::Set(d, f.share[k][i]))));
             }
         }
         hn::Store(acc, d, total + half);
@@ -117,6 +118,7 @@ void sampled_texel(const CubePyramid& pyramid, const std::int32_t* level_offsets
     const int lanes = static_cast<int>(hn::Lanes(d));
     Fetches fetches;
     float sum[4] = {0, 0, 0, 0};
+    const float share = 1.0f / static_cast<float>(samples.count);
     const auto combine = [&](V x, V y, V z, float cx, float cy, float cz) {
         return hn::Add(hn::Add(hn::Mul(x, hn::Set(d, cx)), hn::Mul(y, hn::Set(d, cy))), hn::Mul(z, hn::Set(d, cz)));
     };
@@ -126,11 +128,12 @@ void sampled_texel(const CubePyramid& pyramid, const std::int32_t* level_offsets
             const V x = hn::LoadU(d, &samples.x[begin + i]), y = hn::LoadU(d, &samples.y[begin + i]);
             const V z = hn::LoadU(d, &samples.z[begin + i]);
             address(d, pyramid, level_offsets, combine(x, y, z, m.tx, m.bx, m.nx), combine(x, y, z, m.ty, m.by, m.ny),
-                    combine(x, y, z, m.tz, m.bz, m.nz), hn::LoadU(d, &samples.lod[begin + i]), i, fetches);
+                    combine(x, y, z, m.tz, m.bz, m.nz), hn::LoadU(d, &samples.lod[begin + i]),
+                    share, i, fetches);
         }
         fetch(pyramid.texels().data(), fetches, count, sum);
     }
-    for (int c = 0; c < 3; ++c) rgb[c] = sum[c] / static_cast<float>(samples.count);
+    std::copy_n(sum, 3, rgb);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -129,11 +129,11 @@ TEST(Cube, AreaResamplingToTheSameSizeIsBitExactAndKeepsFluxOtherwise) {
 TEST(Patches, WeightsSumToTheSphere) {
     const std::vector<float> picture = noise(6 * 20 * 20);
     for (const PatchBlocks& blocks : {PatchBlocks(EquirectView{picture.data(), 40, 20}), PatchBlocks(CubeView{picture.data(), 20})})
-        for (const int order : {1, 2, 4}) {
+        for (const int order_index : {0, 1, 3}) {
             CompensatedSum total;
             PatchPoints points;
             for (int block = 0; block < blocks.count(); ++block) {
-                blocks.points(block, order, points);
+                blocks.points(block, order_index, points);
                 for (std::size_t i = 0; i < points.size(); ++i) {
                     total += static_cast<double>(points.weight[i]);
                     const glm::dvec3 d(points.x[i], points.y[i], points.z[i]);

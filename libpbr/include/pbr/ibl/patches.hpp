@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pbr/ibl/environment.hpp"
+#include "pbr/numerics/quadrature.hpp"
 
 namespace pbr {
 
@@ -16,8 +17,7 @@ struct PatchPoints {
     std::vector<float> weight;
     std::vector<float> r, g, b;  ///< radiance
     std::size_t size() const { return x.size(); }
-    void clear();
-    void add(const glm::dvec3& direction, double solid_angle, const float* rgb);
+    void resize(std::size_t count);
 };
 
 /// A cone that holds a block: unit axis, and the largest angle to it in radians.
@@ -38,8 +38,11 @@ class PatchBlocks {
     /// The largest angle a texel of the picture spans along either axis, radians.
     double texel_angle() const { return texel_angle_; }
 
-    /// Gauss-Legendre points of a block, order x order a texel, in place of what `points` held.
-    void points(int block, int order, PatchPoints& points) const;
+    /// Points a texel and axis that points() offers, ascending.
+    static constexpr int kOrders[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128};
+
+    /// Gauss-Legendre points of a block, kOrders[order_index] squared a texel, in place of what `points` held.
+    void points(int block, int order_index, PatchPoints& points) const;
 
   private:
     struct Block {
@@ -49,11 +52,14 @@ class PatchBlocks {
     };
     void add_blocks(int face, int width, int height);
     glm::dvec3 direction(int face, double x, double y) const;  ///< of a continuous texel coordinate, unit, world
+    void equirect_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const;
+    void cube_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const;
 
     EquirectView equirect_;
     CubeView cube_;
     double texel_angle_;
     std::vector<Block> blocks_;
+    std::vector<QuadratureRule> rules_;  ///< of kOrders
 };
 
 }  // namespace pbr

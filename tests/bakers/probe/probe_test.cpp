@@ -1,0 +1,308 @@
+#include "bakers/probe/probe.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bakers/io/io.hpp"
+#include "bakers/probe/chain.hpp"
+#include "pbr/ibl/cubemap.hpp"
+#include "pbr/ibl/environment.hpp"
+#include "pbr/numerics/sequence.hpp"
+
+namespace pbrbake::probe {
+namespace {
+
+ProbeParams defaults() {
+    ProbeParams params{};
+    params.source = "test";
+    params.colour_space = "auto";
+    params.size = 32;
+    params.levels = 4;
+    params.integrator = Integrator::fis;
+    params.samples = {64};
+    params.level_bias = 1;
+    return params;
+}
+
+/// An equirect of a function of direction (in the picture's own frame).
+template <class F>
+Inputs equirect(int width, const F& f) {
+    SourceImage source;
+    source.image.channels = {"R", "G", "B"};
+    source.image.levels.push_back({width, width / 2, std::vector<float>(static_cast<std::size_t>(width) * (width / 2) * 3)});
+    for (int y = 0; y < width / 2; ++y)
+        for (int x = 0; x < width; ++x) {
+            const glm::dvec3 value = f(pbr::equirect_direction((x + 0.5) / width, (y + 0.5) / (width / 2)));
+            for (int c = 0; c < 3; ++c) source.image.texel(0, 0, y, x)[c] = static_cast<float>(value[c]);
+        }
+    return {{"source", std::move(source)}};
+}
+
+glm::dvec3 axes_picture(const glm::dvec3& d) { return {2 + d.x, 2 + d.y, 2 + d.z}; }
+
+Inputs noise_cube(int size) {
+    SourceImage source;
+    source.image.channels = {"R", "G", "B"};
+    source.image.faces = 6;
+    source.image.levels.push_back({size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)});
+    std::vector<float>& texels = source.image.levels[0].texels;
+    for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<float>(pbr::random_unit(5, i));
+    return {{"source", std::move(source)}};
+}
+
+Product bake_probe(const ProbeParams& params, const Inputs& inputs, int threads = 2) {
+    Context context(threads, {});
+    return bake(params, inputs, context);
+}
+
+/// Largest difference of level 0 from f at texel centres.
+template <class F>
+double worst_at_level_0(const Product& product, const F& f) {
+    const int n = product.images[0].levels[0].width;
+    double worst = 0;
+    for (int face = 0; face < 6; ++face)
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                const glm::dvec3 expected = f(pbr::cubemap_texel_direction({face, x, y}, n));
+                for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(product.images[0].texel(0, face, y, x)[c] - expected[c]));
+            }
+    return worst;
+}
+
+TEST(ProbeBaker, LevelsHaveTheSizesAndRoughnessOfTheLinearMapping) {
+    ProbeParams params = defaults();
+    const Product product = bake_probe(params, equirect(64, axes_picture));
+    ASSERT_EQ(product.images[0].levels.size(), 4u);
+    for (int l = 0; l < 4; ++l) {
+        const Json& level = product.properties["levels"][static_cast<std::size_t>(l)];
+        EXPECT_EQ(product.images[0].levels[static_cast<std::size_t>(l)].width, 32 >> l);
+        EXPECT_EQ(level["size"], 32 >> l);
+        EXPECT_DOUBLE_EQ(level["perceptual_roughness"].get<double>(), l / 3.0);
+        EXPECT_DOUBLE_EQ(level["alpha"].get<double>(), l * l / 9.0);
+    }
+    params.levels = 0;
+    params.size = 256;
+    EXPECT_EQ(level_count(params), 6);
+    EXPECT_EQ(size_of_level(params, 5), 8);
+}
+
+TEST(ProbeBaker, OrientationFollowsTheDocumentedFrame) {
+    ProbeParams params = defaults();
+    params.levels = 1;
+    EXPECT_LT(worst_at_level_0(bake_probe(params, equirect(256, axes_picture)), axes_picture), 0.02);
+    params.rotate_deg = 90;  // counter-clockwise from above: what was at +z comes to +x
+    EXPECT_LT(worst_at_level_0(bake_probe(params, equirect(256, axes_picture)),
+                               [](const glm::dvec3& d) { return axes_picture({-d.z, d.y, d.x}); }), 0.02);
+    params.rotate_deg = 0;
+    params.mirror = true;
+    EXPECT_LT(worst_at_level_0(bake_probe(params, equirect(256, axes_picture)),
+                               [](const glm::dvec3& d) { return axes_picture({-d.x, d.y, d.z}); }), 0.02);
+    params.mirror = false;
+    params.up = Up::z;  // the picture's up is the world's +z
+    EXPECT_LT(worst_at_level_0(bake_probe(params, equirect(256, axes_picture)),
+                               [](const glm::dvec3& d) { return axes_picture({d.x, d.z, -d.y}); }), 0.02);
+}
+
+TEST(ProbeBaker, CubeSourceOfTheSameSizeKeepsLevel0BitExact) {
+    const Inputs inputs = noise_cube(32);
+    EXPECT_EQ(bake_probe(defaults(), inputs).images[0].levels[0].texels, inputs.at("source").image.levels[0].texels);
+}
+
+TEST(ProbeBaker, CubeSourceTurnsByQuartersExactlyAndByNothingElse) {
+    const Inputs inputs = noise_cube(16);
+    ProbeParams params = defaults();
+    params.size = 16;
+    params.levels = 1;
+    params.rotate_deg = 90;
+    const Product turned = bake_probe(params, inputs);
+    const std::vector<float>& before = inputs.at("source").image.levels[0].texels;
+    std::vector<float> sorted_before = before, sorted_after = turned.images[0].levels[0].texels;
+    EXPECT_NE(before, sorted_after);
+    std::sort(sorted_before.begin(), sorted_before.end());
+    std::sort(sorted_after.begin(), sorted_after.end());
+    EXPECT_EQ(sorted_before, sorted_after);  // a permutation
+    // What faced +z now faces +x, row by row.
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            EXPECT_EQ(turned.images[0].texel(0, 0, y, x)[0], inputs.at("source").image.texel(0, 4, y, x)[0]);
+    params.rotate_deg = 45;
+    try {
+        bake_probe(params, inputs);
+        FAIL() << "45 degrees were accepted";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::invalid_job);
+        EXPECT_NE(error.message().find("90"), std::string::npos);
+    }
+}
+
+TEST(ProbeBaker, EveryIntegratorKeepsAConstantEnvironmentConstant) {
+    for (const Integrator integrator : {Integrator::is, Integrator::fis, Integrator::reference}) {
+        ProbeParams params = defaults();
+        params.integrator = integrator;
+        const Product product = bake_probe(params, equirect(32, [](const glm::dvec3&) { return glm::dvec3(0.5, 7, 1e-4); }));
+        for (const Level& level : product.images[0].levels)
+            for (std::size_t i = 0; i < level.texels.size(); i += 3) {
+                ASSERT_NEAR(level.texels[i], 0.5f, 0.5f * 1e-5f);
+                ASSERT_NEAR(level.texels[i + 1], 7, 7 * 1e-5f);
+            }
+    }
+}
+
+TEST(ProbeBaker, FilteredSamplesApproachTheReference) {
+    const auto lamps = [](const glm::dvec3& d) {
+        return glm::dvec3(0.1 + (d.x > 0.9 ? 20 : 0), 0.5 + 0.5 * d.y, 0.2 + (d.z < -0.95 ? 50 : 0));
+    };
+    const Inputs inputs = equirect(128, lamps);
+    ProbeParams params = defaults();
+    params.integrator = Integrator::reference;
+    const Product truth = bake_probe(params, inputs);
+    params.integrator = Integrator::fis;
+    const auto error = [&](int samples, std::size_t level) {
+        params.samples = {samples};
+        const Product product = bake_probe(params, inputs);
+        const auto &a = product.images[0].levels[level].texels, &b = truth.images[0].levels[level].texels;
+        double squared = 0, mean = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            squared += (a[i] - b[i]) * (a[i] - b[i]);
+            mean += b[i];
+        }
+        return std::sqrt(squared * static_cast<double>(a.size())) / mean;
+    };
+    for (const std::size_t level : {1u, 2u, 3u}) {
+        const double coarse = error(32, level), fine = error(2048, level);
+        EXPECT_LT(fine, coarse / 6.4) << "level " << level;  // 64 times the samples: an eighth, less a fifth
+        EXPECT_LT(fine, 0.01);
+    }
+}
+
+TEST(ProbeBaker, SameBytesAtAnyThreadCount) {
+    const Inputs inputs = equirect(64, axes_picture);
+    for (const Integrator integrator : {Integrator::is, Integrator::fis, Integrator::reference}) {
+        ProbeParams params = defaults();
+        params.integrator = integrator;
+        const Product one = bake_probe(params, inputs, 1);
+        for (const int threads : {2, 7}) {
+            const Product many = bake_probe(params, inputs, threads);
+            for (std::size_t l = 0; l < 4; ++l) EXPECT_EQ(many.images[0].levels[l].texels, one.images[0].levels[l].texels);
+        }
+    }
+}
+
+TEST(ProbeBaker, OneHugeTexelStaysFinite) {
+    for (const double huge : {1e6, 1e9, 3e38}) {
+        Inputs inputs = equirect(64, [](const glm::dvec3&) { return glm::dvec3(1); });
+        inputs.at("source").image.texel(0, 0, 10, 20)[0] = static_cast<float>(huge);
+        for (const Integrator integrator : {Integrator::fis, Integrator::reference}) {
+            ProbeParams params = defaults();
+            params.integrator = integrator;
+            const Product product = bake_probe(params, inputs);
+            for (const Level& level : product.images[0].levels)
+                for (const float value : level.texels) {
+                    ASSERT_TRUE(std::isfinite(value)) << huge;
+                    ASSERT_GE(value, 0);
+                }
+        }
+    }
+}
+
+TEST(ProbeBaker, TinyAndOddSizesWork) {
+    for (const int size : {1, 2, 3, 7}) {
+        ProbeParams params = defaults();
+        params.size = size;
+        params.levels = full_chain(size);
+        const Product product = bake_probe(params, equirect(16, axes_picture));
+        for (const Level& level : product.images[0].levels)
+            for (const float value : level.texels) {
+                EXPECT_GE(value, 1 - 1e-3f);
+                EXPECT_LE(value, 3 + 1e-3f);
+            }
+    }
+}
+
+TEST(ProbeParamsCheck, NamesWhatNeitherSchemaNorSizeAllow) {
+    ProbeParams params = defaults();
+    params.levels = 7;
+    params.samples = {1, 2};
+    const std::vector<Mistake> mistakes = check(params);
+    ASSERT_EQ(mistakes.size(), 2u);
+    EXPECT_EQ(mistakes[0].pointer, "/levels");
+    EXPECT_NE(mistakes[0].message.find("at most 6"), std::string::npos);
+    EXPECT_EQ(mistakes[1].pointer, "/samples");
+}
+
+TEST(ProbeCertificate, IntervalHoldsTheFullMeasurement) {
+    const Inputs inputs = equirect(64, [](const glm::dvec3& d) { return glm::dvec3(1 + d.x, d.y > 0 ? 3 : 0.5, d.z > 0.8 ? 5 : 0.1); });
+    const ProbeParams params = defaults();
+    const Product product = bake_probe(params, inputs);
+    Context sampled_context(2, {}), full_context(2, {});
+    full_context.set_certify_fully(true);
+    const Certificate sampled = certify(params, inputs, product, sampled_context);
+    const Certificate full = certify(params, inputs, product, full_context);
+    ASSERT_EQ(sampled.figures.size(), full.figures.size());
+    int compared = 0;
+    for (std::size_t i = 0; i < sampled.figures.size(); ++i) {
+        if (sampled.figures[i].metric != "relative_rmse") continue;
+        ASSERT_TRUE(sampled.figures[i].interval);
+        EXPECT_EQ(full.figures[i].evidence, Evidence::measured);
+        // A 95 % interval, widened by half its width: it must not fail one time in twenty.
+        const auto [low, high] = *sampled.figures[i].interval;
+        EXPECT_GE(full.figures[i].value, low - (high - low) / 2);
+        EXPECT_LE(full.figures[i].value, high + (high - low) / 2);
+        ++compared;
+    }
+    EXPECT_EQ(compared, 3);
+}
+
+TEST(Builtin, OutdoorSunHasItsIlluminanceAndLuminance) {
+    const SourceImage source = builtin_environment("outdoor");
+    const Level& level = source.image.levels[0];
+    EXPECT_EQ(source.units, "cd/m^2");
+    double lux = 0, peak = 0;
+    const glm::dvec3 sun = pbr::equirect_direction(597.5 / 1024, 127.5 / 512);
+    for (int y = 0; y < level.height; ++y)
+        for (int x = 0; x < level.width; ++x) {
+            const float* rgb = source.image.texel(0, 0, y, x);
+            const double luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+            peak = std::max(peak, luminance);
+            const glm::dvec3 d = pbr::equirect_direction((x + 0.5) / level.width, (y + 0.5) / level.height);
+            const double cosine = d.x * sun.x + d.y * sun.y + d.z * sun.z;
+            if (luminance < 1e6) continue;  // the sun's texels alone
+            lux += luminance * cosine * 2 * std::numbers::pi / level.width *
+                   (std::cos(std::numbers::pi * y / level.height) - std::cos(std::numbers::pi * (y + 1) / level.height));
+        }
+    EXPECT_NEAR(lux, 100'000, 200);      // 100 klx, and the sky behind the disk
+    EXPECT_NEAR(peak, 1.472e9, 0.02e9);  // texels wholly inside the disk
+}
+
+TEST(Builtin, OutdoorBakesIntoHalfWithoutInfAndEqualsFloatAfterScaling) {
+    ProbeParams params = defaults();
+    params.size = 64;
+    const Inputs inputs{{"source", builtin_environment("outdoor")}};
+    const Product exact = bake_probe(params, inputs);
+    Product half = exact;
+    const double scale = io::quantise(half.images, PixelType::half);
+    EXPECT_LT(scale, 1);
+    EXPECT_EQ(std::exp2(std::round(std::log2(scale))), scale);  // a power of two
+    for (std::size_t l = 0; l < exact.images[0].levels.size(); ++l)
+        for (std::size_t i = 0; i < exact.images[0].levels[l].texels.size(); ++i) {
+            const double stored = half.images[0].levels[l].texels[i], value = exact.images[0].levels[l].texels[i] * scale;
+            ASSERT_TRUE(std::isfinite(stored));
+            ASSERT_LE(std::abs(stored - value), std::max(value * 0x1p-11, 0x1p-25));  // half's rounding, subnormals included
+        }
+}
+
+TEST(Builtin, UnknownNameSaysWhatThereIs) {
+    try {
+        builtin_environment("mars");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::unreadable_input);
+        EXPECT_NE(error.message().find("builtin:outdoor"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace pbrbake::probe
