@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <cstdio>
 
 #include "bakers/io/io.hpp"
 #include "bakers/job/json_text.hpp"
@@ -17,6 +17,13 @@ namespace {
 
 /// "a … b" with what stands for a range in words.
 std::string range(double low, double high) { return number(low) + " to " + number(high); }
+
+/// A setting, without the zeros that measured numbers end with.
+std::string plain(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", value);
+    return text.data();
+}
 
 std::string escaped_text(const Json& value) { return escaped(value.get<std::string>()); }
 
@@ -200,7 +207,7 @@ std::string DemoPage::cost_sentence(const Environment& environment) const {
     return html + "The error of the worst level, measured at every texel against the reference, falls from " +
            percent(cheap_error) + " to " + percent(dear_error) + ": by " + number(cheap_error / dear_error) +
            " ×. The reference takes " + number(seconds_of(*environment.best().report, run::Stage::bake).cpu / dear_s) +
-           " × as long again.</p>\n";
+           " × the CPU time of " + dear.title + ".</p>\n";
 }
 
 std::string DemoPage::cost() const {
@@ -211,8 +218,8 @@ std::string DemoPage::cost() const {
     return html + "<p class=soft>Wall time is what one waits; CPU time is summed over threads. Every bake first resamples the "
                   "source to level 0 and to the pyramid that samples read: the same work whatever the sample count. The errors in the table are "
                   "certificates: part of each product's record, the same on every machine. An estimate compares tiles of "
-                  "texels chosen by hash with the exact sum over all source texels; few tiles or a small bright sun make "
-                  "its interval wide. Level 0 is the mirror: no lobe, no sampling, no error figure.</p>\n";
+                  "texels chosen by hash with the exact sum over all source texels; its interval "
+                  "takes the tiles' errors for normally distributed, so with few tiles and one small sun it can miss. Level 0 is the mirror: no lobe, no sampling, no error figure.</p>\n";
 }
 
 std::string DemoPage::balls(const Environment& environment) const {
@@ -222,7 +229,7 @@ std::string DemoPage::balls(const Environment& environment) const {
     for (int level = 0; level < levels; ++level) {
         const Json& facts = environment.best().report->entry["levels"][static_cast<std::size_t>(level)];
         html += "<span class=head>level " + std::to_string(level) + "<br>roughness " +
-                number(facts["perceptual_roughness"].get<double>()) + "</span>";
+                plain(facts["perceptual_roughness"].get<double>()) + "</span>";
     }
     for (const Probe& probe : environment.probes) {
         html += "<span class=row><b>" + probe.title + "</b>" +
@@ -253,8 +260,8 @@ std::string DemoPage::level_table(const Environment& environment) const {
         const Json& facts = environment.best().report->entry["levels"][static_cast<std::size_t>(level)];
         const std::string size = std::to_string(facts["size"].get<int>());
         std::vector<std::string> cells{std::to_string(level), size + " × " + size,
-                                       number(facts["perceptual_roughness"].get<double>()),
-                                       number(facts["alpha"].get<double>())};
+                                       plain(facts["perceptual_roughness"].get<double>()),
+                                       plain(facts["alpha"].get<double>())};
         for (const Probe& probe : environment.probes) {
             const Json* figure = figure_at(*probe.report, "relative_rmse", level);
             cells.push_back(figure ? certified(*figure, "<br>") : "–");
@@ -269,8 +276,8 @@ std::string DemoPage::level_table(const Environment& environment) const {
     }
     return "<h3>Error a level</h3>\n<p class=soft>Relative root mean square error: of stored texels, over their mean. "
            "Energy: solid-angle weighted sum of all texels of the " +
-           environment.best().title + " probe; a level has level 0's only where the environment is as bright behind "
-           "every texel as in front, so this tells drift from noise, not right from wrong.</p>\n" +
+           environment.best().title + " probe; filtering keeps it, so what "
+           "differs is noise, and that a level is sampled at its texels' centers.</p>\n" +
            table.html();
 }
 
@@ -318,7 +325,7 @@ std::string DemoPage::probe_section(const Environment& environment) const {
     }
     const Picture cross = level_0_cross(environment.look, environment.best().baked);
     return "<h2>" + environment.look.title + " probe</h2>\n<p>" + environment.look.description + " Shown at EV100 " +
-           number(environment.look.ev100) + ": " + number(1 / exposure_of_ev100(environment.look.ev100)) +
+           plain(environment.look.ev100) + ": " + number(1 / exposure_of_ev100(environment.look.ev100)) +
            " cd/m² is white.</p>\n" +
            figure_html(balls(environment),
                        "Each level as a mirror ball seen from afar: the radiance stored for the direction that each "
