@@ -160,8 +160,8 @@ std::string DemoPage::introduction() const {
            figure_html(strips,
                        "The products in use. Metal balls of perceptual roughness 0, 0.2 … 1, shaded by the split sum: "
                        "probe(reflected direction, roughness) × (f0 · scale + bias), the table giving scale and bias. "
-                       "Above: aluminium, f0 = (0.91, 0.92, 0.92), outdoors at EV100 14. Below: gold, f0 = (1, 0.77, "
-                       "0.34), indoors at EV100 7. No diffuse light, no shadows, no multiple scattering.",
+                       "Above: aluminium, f0 = (0.91, 0.92, 0.92), outdoors at EV100 15. Below: gold, f0 = (1, 0.77, "
+                       "0.34), indoors at EV100 8. No diffuse light, no shadows, no multiple scattering.",
                        " class=hero");
 }
 
@@ -224,7 +224,7 @@ std::string DemoPage::cost() const {
 
 std::string DemoPage::balls(const Environment& environment) const {
     const int levels = environment.levels();
-    std::string html = "<div class=wide><div class=balls style=\"grid-template-columns:92px repeat(" +
+    std::string html = "<div class=wide><div class=balls style=\"grid-template-columns:108px repeat(" +
                        std::to_string(levels) + ",1fr)\"><span></span>";
     for (int level = 0; level < levels; ++level) {
         const Json& facts = environment.best().report->entry["levels"][static_cast<std::size_t>(level)];
@@ -246,7 +246,7 @@ std::string DemoPage::balls(const Environment& environment) const {
             html += image_html(difference_ball(environment.look, probe.baked, environment.best().baked, level),
                                "Difference, level " + std::to_string(level));
     }
-    return html + "</div></div>\n" + false_colour_scale(percent(kLeastDifferenceShown) + " or less", percent(kMostDifferenceShown) + " or more");
+    return html + "</div></div>\n" + false_colour_scale(plain(100 * kLeastDifferenceShown) + " % or less", plain(100 * kMostDifferenceShown) + " % or more");
 }
 
 std::string DemoPage::level_table(const Environment& environment) const {
@@ -333,7 +333,8 @@ std::string DemoPage::probe_section(const Environment& environment) const {
            level_table(environment) + stage_table(bakes, titles) + "<h3>Records</h3>\n" + records + "<h3>Level 0</h3>\n" +
            figure_html(image_html(cross, "Level 0 as an unfolded cube"),
                        "Level 0 unfolded. Middle row: −X, +Z, +X, −Z; +Y above and −Y below +Z. Faces are stored in the "
-                       "order +X −X +Y −Y +Z −Z, right-handed, y up, each as OpenGL samples it. Shown at half size.");
+                       "order +X −X +Y −Y +Z −Z, right-handed, y up, each as OpenGL samples it. Shown at half size.",
+                       " class=cross");
 }
 
 std::string DemoPage::table_section() const {

@@ -61,9 +61,9 @@ const std::vector<EnvironmentLook>& environment_looks() {
         {"outdoor", "Outdoor",
          "A clear sky, ground of albedo 0.2, and the sun at 45°: 0.53° across, 100,000 lx, 1.47 × 10<sup>9</sup> "
          "cd/m², on a few texels of the source.",
-         14, {-0.2, -0.05, -1}, {0.91, 0.92, 0.92}},
+         15, {-0.2, -0.05, -1}, {0.91, 0.92, 0.92}},
         {"indoor", "Indoor",
-         "A room of 7 × 3 × 5 m with a window of 3,500 to 6,000 cd/m², two lamps of 20,000 cd/m² and a tiled floor.", 7,
+         "A room of 7 × 3 × 5 m with a window of 3,500 to 6,000 cd/m², two lamps of 20,000 cd/m² and a tiled floor.", 8,
          {-0.8, -0.1, 0.6}, {1, 0.77, 0.34}},
     };
     return looks;

@@ -28,6 +28,7 @@ figure{margin:16px 0}
 figcaption{margin-top:8px;max-width:80ch}
 .hero img{width:100%;border-radius:10px}
 .hero img+img{margin-top:10px}
+.cross img{clip-path:polygon(25% 0,50% 0,50% 33.33%,100% 33.33%,100% 66.67%,50% 66.67%,50% 100%,25% 100%,25% 66.67%,0 66.67%,0 33.33%,25% 33.33%)}
 .wide{overflow-x:auto;margin:12px 0}
 table{border-collapse:collapse;font-size:14px;line-height:1.4;font-variant-numeric:tabular-nums;min-width:100%}
 th,td{padding:6px 10px;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap;vertical-align:baseline}
