@@ -16,7 +16,7 @@ std::vector<Command> commands() {
     }
     list.push_back(
         {"inspect", "Shows what a product holds: levels, range, energy, certificate", inspect_command});
-    list.push_back({"demo", "Bakes built-in inputs, and writes a page that shows products, cost and error", demo_command});
+    list.push_back({"demo", "Bakes built-in inputs, and writes a page to look at", demo_command});
     return list;
 }
 

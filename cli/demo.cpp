@@ -49,13 +49,15 @@ fs::path write_job(const fs::path& folder, bool with_reference) {
 }  // namespace
 
 ExitCode demo_command(const Arguments& arguments) {
-    Options options("demo", "[OPTIONS]",
-                    "Bakes a table and probes of two built-in environments, and writes a page that shows them with "
-                    "their cost and error. `pbrbake bake DIR/job.json` bakes the same bytes again.");
-    options.add({"output", {{"o,output", "DIR", "Folder for job, products and index.html. [default: demo]"}}});
+    Options options(
+        "demo", "[OPTIONS]",
+        "Bakes a table and probes of two built-in environments, and writes a page that shows them with "
+        "their cost and error. `pbrbake bake DIR/job.json` bakes the same bytes again.");
+    options.add(
+        {"output", {{"o,output", "DIR", "Folder for job, products and index.html. [default: demo]"}}});
     options.add({"what to bake",
-                 {{"reference", "", "Bakes the exact sum too, and measures every texel against it; takes a minute.",
-                   true}}});
+                 {{"reference", "",
+                   "Bakes the exact sum too, and measures every texel against it; takes a minute.", true}}});
     options.add({"running",
                  {{"threads", "N", "Worker threads. [default: all processors]"},
                   {"quiet", "", "Shows errors alone, and the path of the page.", true}}});

@@ -8,8 +8,9 @@
 
 namespace pbrbake::verify {
 
-/// The job, as a user would write it: a table, and each built-in environment by 32 and 1,024 filtered samples and, if
-/// wanted, by the reference, which takes ten times as long as all the rest. Products go beside the job file.
+/// The job, as a user would write it: a table, and each built-in environment by 32 and 1,024 filtered samples
+/// and, if wanted, by the reference, which takes ten times as long as all the rest. Products go beside the
+/// job file.
 Json demo_job(bool with_reference);
 
 /// The page (HTML) of a run of that job. Reads the products back. All bakes must be done.

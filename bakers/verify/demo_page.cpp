@@ -28,7 +28,8 @@ std::string plain(double value) {
 std::string escaped_text(const Json& value) { return escaped(value.get<std::string>()); }
 
 std::string figure_html(const std::string& pictures, const std::string& caption, const char* kind = "") {
-    return std::string("<figure") + kind + ">" + pictures + "<figcaption>" + caption + "</figcaption></figure>\n";
+    return std::string("<figure") + kind + ">" + pictures + "<figcaption>" + caption +
+           "</figcaption></figure>\n";
 }
 
 std::string image_html(const Picture& picture, const std::string& alt) {
@@ -51,9 +52,11 @@ const Json& headline(const run::BakeReport& report) { return report.entry["certi
 
 /// "0.0123 <small>estimate, 95 % in 0.01 to 0.02</small>"; `gap` stands before the small print.
 std::string certified(const Json& figure, const char* gap = " ") {
-    std::string html = number(figure["value"].get<double>()) + gap + "<small>" + escaped_text(figure["evidence"]);
+    std::string html =
+        number(figure["value"].get<double>()) + gap + "<small>" + escaped_text(figure["evidence"]);
     if (figure.contains("interval"))
-        html += ", 95 % in " + range(figure["interval"][0].get<double>(), figure["interval"][1].get<double>());
+        html +=
+            ", 95 % in " + range(figure["interval"][0].get<double>(), figure["interval"][1].get<double>());
     return html + "</small>";
 }
 
@@ -64,8 +67,8 @@ const Json* figure_at(const run::BakeReport& report, const std::string& metric, 
     return nullptr;
 }
 
-/// Root mean square difference of two probes' texels over the mean of the second: the certificate's metric, at every
-/// texel.
+/// Root mean square difference of two probes' texels over the mean of the second: the certificate's metric,
+/// at every texel.
 double relative_rmse(const BakedImage& a, const BakedImage& b, int level) {
     const auto& texels_a = a.image.levels[static_cast<std::size_t>(level)].texels;
     const auto& texels_b = b.image.levels[static_cast<std::size_t>(level)].texels;
@@ -104,7 +107,8 @@ class DemoPage {
                 if (bake.bake->json.value("source", "") != environment.source) continue;
                 const bool exact = bake.bake->json["integrator"] == "reference";
                 const std::string samples = exact ? "" : count(bake.bake->json["samples"].get<unsigned>());
-                environment.probes.push_back({&bake, read_baked(bake), exact ? "reference" : samples + " samples"});
+                environment.probes.push_back(
+                    {&bake, read_baked(bake), exact ? "reference" : samples + " samples"});
             }
             environments_.push_back(std::move(environment));
         }
@@ -127,7 +131,8 @@ class DemoPage {
     std::string probe_section(const Environment& environment) const;
     std::string balls(const Environment& environment) const;
     std::string level_table(const Environment& environment) const;
-    std::string stage_table(const std::vector<const run::BakeReport*>& bakes, const std::vector<std::string>& titles) const;
+    std::string stage_table(const std::vector<const run::BakeReport*>& bakes,
+                            const std::vector<std::string>& titles) const;
     std::string facts(const run::BakeReport& report) const;
     std::string table_section() const;
     std::string reading() const;
@@ -149,20 +154,25 @@ std::string DemoPage::introduction() const {
     const auto fact = [](const std::string& value, const std::string& name) {
         return "<li><b>" + value + "</b>" + name + "</li>";
     };
-    return "<h1>pbrbake demo</h1>\n<p class=lead>Look-up tables and prefiltered probes for image-based lighting, baked "
+    return "<h1>pbrbake demo</h1>\n<p class=lead>Look-up tables and prefiltered probes for image-based "
+           "lighting, baked "
            "from two procedural environments, with what each cost and how far it is from the truth.</p>\n"
            "<ul class=facts>" +
            fact(std::to_string(report_.bakes.size()), "products") +
            fact(number(report_.seconds.wall) + " s", "wall, all stages, certifying included") +
-           fact(number(report_.seconds.cpu) + " s", "CPU on " + std::to_string(report_.threads) + " threads") +
+           fact(number(report_.seconds.cpu) + " s",
+                "CPU on " + std::to_string(report_.threads) + " threads") +
            fact(number(static_cast<double>(bytes) / 1e6) + " MB", "written") +
            fact(escaped(std::string(run::tool_version()).substr(8)), "version of pbrbake") + "</ul>\n" +
-           figure_html(strips,
-                       "The products in use. Metal balls of perceptual roughness 0, 0.2 … 1, shaded by the split sum: "
-                       "probe(reflected direction, roughness) × (f0 · scale + bias), the table giving scale and bias. "
-                       "Above: aluminium, f0 = (0.91, 0.92, 0.92), outdoors at EV100 15. Below: gold, f0 = (1, 0.77, "
-                       "0.34), indoors at EV100 8. No diffuse light, no shadows, no multiple scattering.",
-                       " class=hero");
+           figure_html(
+               strips,
+               "The products in use. Metal balls of perceptual roughness 0, 0.2 … 1, shaded by the split "
+               "sum: "
+               "probe(reflected direction, roughness) × (f0 · scale + bias), the table giving scale and "
+               "bias. "
+               "Above: aluminium, f0 = (0.91, 0.92, 0.92), outdoors at EV100 15. Below: gold, f0 = (1, 0.77, "
+               "0.34), indoors at EV100 8. No diffuse light, no shadows, no multiple scattering.",
+               " class=hero");
 }
 
 std::string DemoPage::cost_table() const {
@@ -173,11 +183,12 @@ std::string DemoPage::cost_table() const {
             const run::Seconds bake = seconds_of(*probe.report, run::Stage::bake);
             const Json& figure = headline(*probe.report);
             const bool exact = probe.title == "reference";
-            table.add({"<code>" + escaped(probe.report->bake->name) + "</code>",
-                       exact ? "all source texels" : count(probe.report->bake->json["samples"].get<unsigned>()),
-                       number(bake.wall) + " s", number(bake.cpu) + " s", count(evaluations(*probe.report)),
-                       number(seconds_of(*probe.report, run::Stage::certify).wall) + " s", certified(figure),
-                       std::to_string(figure["level"].get<int>())});
+            table.add(
+                {"<code>" + escaped(probe.report->bake->name) + "</code>",
+                 exact ? "all source texels" : count(probe.report->bake->json["samples"].get<unsigned>()),
+                 number(bake.wall) + " s", number(bake.cpu) + " s", count(evaluations(*probe.report)),
+                 number(seconds_of(*probe.report, run::Stage::certify).wall) + " s", certified(figure),
+                 std::to_string(figure["level"].get<int>())});
         }
     return table.html();
 }
@@ -186,14 +197,15 @@ std::string DemoPage::cost_sentence(const Environment& environment) const {
     const Probe &cheap = environment.probes[0], &dear = environment.probes[1];
     const double cheap_s = seconds_of(*cheap.report, run::Stage::bake).cpu;
     const double dear_s = seconds_of(*dear.report, run::Stage::bake).cpu;
-    std::string html = "<p><b>" + environment.look.title + ".</b> " + dear.title + " instead of " + cheap.title +
-                       ": " + number(dear_s / cheap_s) + " × the CPU time of the bake (" + number(dear_s) + " s against " +
-                       number(cheap_s) + " s). ";
+    std::string html = "<p><b>" + environment.look.title + ".</b> " + dear.title + " instead of " +
+                       cheap.title + ": " + number(dear_s / cheap_s) + " × the CPU time of the bake (" +
+                       number(dear_s) + " s against " + number(cheap_s) + " s). ";
     if (environment.probes.size() < 3) {
         double worst = 0;
         for (int level = 1; level < environment.levels(); ++level)
             worst = std::max(worst, relative_rmse(cheap.baked, dear.baked, level));
-        const double cheap_error = headline(*cheap.report)["value"], dear_error = headline(*dear.report)["value"];
+        const double cheap_error = headline(*cheap.report)["value"],
+                     dear_error = headline(*dear.report)["value"];
         return html + "The certified error of the worst level falls from " + number(cheap_error) + " to " +
                number(dear_error) + ": by " + number(cheap_error / dear_error) +
                " ×. Measured at every texel, the two differ by a relative RMS of " + percent(worst) +
@@ -206,20 +218,27 @@ std::string DemoPage::cost_sentence(const Environment& environment) const {
     }
     return html + "The error of the worst level, measured at every texel against the reference, falls from " +
            percent(cheap_error) + " to " + percent(dear_error) + ": by " + number(cheap_error / dear_error) +
-           " ×. The reference takes " + number(seconds_of(*environment.best().report, run::Stage::bake).cpu / dear_s) +
+           " ×. The reference takes " +
+           number(seconds_of(*environment.best().report, run::Stage::bake).cpu / dear_s) +
            " × the CPU time of " + dear.title + ".</p>\n";
 }
 
 std::string DemoPage::cost() const {
-    std::string html = "<h2>What accuracy costs</h2>\n<p>The same 256² probe by filtered importance sampling: with 32 "
-                       "samples a texel, as in Frostbite's notes, and with 1,024.</p>\n" +
-                       cost_table();
+    std::string html =
+        "<h2>What accuracy costs</h2>\n<p>The same 256² probe by filtered importance sampling: with 32 "
+        "samples a texel, as in Frostbite's notes, and with 1,024.</p>\n" +
+        cost_table();
     for (const Environment& environment : environments_) html += cost_sentence(environment);
-    return html + "<p class=soft>Wall time is what one waits; CPU time is summed over threads. Every bake first resamples the "
-                  "source to level 0 and to the pyramid that samples read: the same work whatever the sample count. The errors in the table are "
-                  "certificates: part of each product's record, the same on every machine. An estimate compares tiles of "
-                  "texels chosen by hash with the exact sum over all source texels; its interval "
-                  "takes the tiles' errors for normally distributed, so with few tiles and one small sun it can miss. Level 0 is the mirror: no lobe, no sampling, no error figure.</p>\n";
+    return html +
+           "<p class=soft>Wall time is what one waits; CPU time is summed over threads. Every bake first "
+           "resamples the "
+           "source to level 0 and to the pyramid that samples read: the same work whatever the sample count. "
+           "The errors in the table are "
+           "certificates: part of each product's record, the same on every machine. An estimate compares "
+           "tiles of "
+           "texels chosen by hash with the exact sum over all source texels; its interval "
+           "takes the tiles' errors for normally distributed, so with few tiles and one small sun it can "
+           "miss. Level 0 is the mirror: no lobe, no sampling, no error figure.</p>\n";
 }
 
 std::string DemoPage::balls(const Environment& environment) const {
@@ -235,18 +254,22 @@ std::string DemoPage::balls(const Environment& environment) const {
         html += "<span class=row><b>" + probe.title + "</b>" +
                 number(seconds_of(*probe.report, run::Stage::bake).cpu) + " s CPU</span>";
         for (int level = 0; level < levels; ++level)
-            html += image_html(level_ball(environment.look, probe.baked, level),
-                               environment.look.name + ", " + probe.title + ", level " + std::to_string(level));
+            html +=
+                image_html(level_ball(environment.look, probe.baked, level),
+                           environment.look.name + ", " + probe.title + ", level " + std::to_string(level));
     }
     for (std::size_t i = 0; i + 1 < environment.probes.size(); ++i) {
         const Probe& probe = environment.probes[i];
         html += "<span class=row><b>difference</b>" + probe.title + "<br>from " + environment.best().title +
                 "</span><span></span>";
         for (int level = 1; level < levels; ++level)
-            html += image_html(difference_ball(environment.look, probe.baked, environment.best().baked, level),
-                               "Difference, level " + std::to_string(level));
+            html +=
+                image_html(difference_ball(environment.look, probe.baked, environment.best().baked, level),
+                           "Difference, level " + std::to_string(level));
     }
-    return html + "</div></div>\n" + false_colour_scale(plain(100 * kLeastDifferenceShown) + " % or less", plain(100 * kMostDifferenceShown) + " % or more");
+    return html + "</div></div>\n" +
+           false_colour_scale(plain(100 * kLeastDifferenceShown) + " % or less",
+                              plain(100 * kMostDifferenceShown) + " % or more");
 }
 
 std::string DemoPage::level_table(const Environment& environment) const {
@@ -268,15 +291,18 @@ std::string DemoPage::level_table(const Environment& environment) const {
         }
         for (std::size_t i = 0; i + 1 < environment.probes.size(); ++i)
             cells.push_back(level == 0 ? "–"
-                                       : number(relative_rmse(environment.probes[i].baked, environment.best().baked, level)) +
+                                       : number(relative_rmse(environment.probes[i].baked,
+                                                              environment.best().baked, level)) +
                                              "<br><small>measured</small>");
         const Json* energy = figure_at(*environment.best().report, "energy_against_level_0", level);
         cells.push_back(energy ? percent((*energy)["value"].get<double>()) : "–");
         table.add(cells);
     }
-    return "<h3>Error a level</h3>\n<p class=soft>Relative root mean square error: of stored texels, over their mean. "
+    return "<h3>Error a level</h3>\n<p class=soft>Relative root mean square error: of stored texels, over "
+           "their mean. "
            "Energy: solid-angle weighted sum of all texels of the " +
-           environment.best().title + " probe; filtering keeps it, so what "
+           environment.best().title +
+           " probe; filtering keeps it, so what "
            "differs is noise, and that a level is sampled at its texels' centers.</p>\n" +
            table.html();
 }
@@ -308,10 +334,11 @@ std::string DemoPage::facts(const run::BakeReport& report) const {
         outputs += (outputs.empty() ? "" : ", ") + ("<a href=\"" + escaped_text(output["path"]) + "\">") +
                    escaped_text(output["path"]) + "</a>, " + count(output["bytes"].get<std::uint64_t>()) +
                    " bytes, XXH3 <code>" + escaped_text(output["xxh3"]) + "</code>";
-    return "<dl><dt>file</dt><dd>" + outputs + "</dd><dt>pixel, units, scale</dt><dd>" + escaped_text(entry["pixel"]) +
-           ", " + escaped_text(entry["units"]) + ", " + scale_text(entry["scale"].get<double>()) +
-           "</dd><dt>certificate</dt><dd>" + escaped_text(headline(report)["metric"]) + " " +
-           certified(headline(report)) + "<br>" + escaped_text(headline(report)["method"]) + "</dd></dl>\n";
+    return "<dl><dt>file</dt><dd>" + outputs + "</dd><dt>pixel, units, scale</dt><dd>" +
+           escaped_text(entry["pixel"]) + ", " + escaped_text(entry["units"]) + ", " +
+           scale_text(entry["scale"].get<double>()) + "</dd><dt>certificate</dt><dd>" +
+           escaped_text(headline(report)["metric"]) + " " + certified(headline(report)) + "<br>" +
+           escaped_text(headline(report)["method"]) + "</dd></dl>\n";
 }
 
 std::string DemoPage::probe_section(const Environment& environment) const {
@@ -324,17 +351,22 @@ std::string DemoPage::probe_section(const Environment& environment) const {
         records += facts(*probe.report);
     }
     const Picture cross = level_0_cross(environment.look, environment.best().baked);
-    return "<h2>" + environment.look.title + " probe</h2>\n<p>" + environment.look.description + " Shown at EV100 " +
-           plain(environment.look.ev100) + ": " + number(1 / exposure_of_ev100(environment.look.ev100)) +
-           " cd/m² is white.</p>\n" +
-           figure_html(balls(environment),
-                       "Each level as a mirror ball seen from afar: the radiance stored for the direction that each "
-                       "point reflects into. Difference: |a − b| in luminance over the level's mean luminance, on a logarithmic scale.") +
-           level_table(environment) + stage_table(bakes, titles) + "<h3>Records</h3>\n" + records + "<h3>Level 0</h3>\n" +
-           figure_html(image_html(cross, "Level 0 as an unfolded cube"),
-                       "Level 0 unfolded. Middle row: −X, +Z, +X, −Z; +Y above and −Y below +Z. Faces are stored in the "
-                       "order +X −X +Y −Y +Z −Z, right-handed, y up, each as OpenGL samples it. Shown at half size.",
-                       " class=cross");
+    return "<h2>" + environment.look.title + " probe</h2>\n<p>" + environment.look.description +
+           " Shown at EV100 " + plain(environment.look.ev100) + ": " +
+           number(1 / exposure_of_ev100(environment.look.ev100)) + " cd/m² is white.</p>\n" +
+           figure_html(
+               balls(environment),
+               "Each level as a mirror ball seen from afar: the radiance stored for the direction that each "
+               "point reflects into. Difference: |a − b| in luminance over the level's mean luminance, on a "
+               "logarithmic scale.") +
+           level_table(environment) + stage_table(bakes, titles) + "<h3>Records</h3>\n" + records +
+           "<h3>Level 0</h3>\n" +
+           figure_html(
+               image_html(cross, "Level 0 as an unfolded cube"),
+               "Level 0 unfolded. Middle row: −X, +Z, +X, −Z; +Y above and −Y below +Z. Faces are stored in "
+               "the "
+               "order +X −X +Y −Y +Z −Z, right-handed, y up, each as OpenGL samples it. Shown at half size.",
+               " class=cross");
 }
 
 std::string DemoPage::table_section() const {
@@ -342,8 +374,10 @@ std::string DemoPage::table_section() const {
     const auto chart = [](const Picture& picture, const std::string& title, const std::string& note) {
         return "<figure><div class=chart><div class=y><span>0</span><span>perceptual roughness &rarr;</span>"
                "<span>1</span></div>" +
-               image_html(picture, title) + "<div class=x><span>0</span><span>NoV &rarr;</span><span>1</span></div></div>"
-               "<figcaption><b>" + title + "</b><br>" + note + "</figcaption></figure>";
+               image_html(picture, title) +
+               "<div class=x><span>0</span><span>NoV &rarr;</span><span>1</span></div></div>"
+               "<figcaption><b>" +
+               title + "</b><br>" + note + "</figcaption></figure>";
     };
     std::string charts;
     const Json& columns = table_->entry["columns"];
@@ -355,31 +389,41 @@ std::string DemoPage::table_section() const {
         charts += chart(picture, columns[static_cast<std::size_t>(c)].get<std::string>(),
                         notes[static_cast<std::size_t>(c)] + "; 0 to " + number(highest));
     }
-    charts += chart(rgb_picture(table), "RGB", "the three channels as they lie in the file, clipped to 0 to 1");
+    charts +=
+        chart(rgb_picture(table), "RGB", "the three channels as they lie in the file, clipped to 0 to 1");
     Table figures({"metric", "value", "evidence", "method"});
     figures.set_text(2);
     figures.set_text(3);
     for (const Json& figure : table_->entry["certificate"]["figures"])
-        figures.add({"<code>" + escaped_text(figure["metric"]) + "</code>", number(figure["value"].get<double>()),
-                     escaped_text(figure["evidence"]), escaped_text(figure["method"])});
+        figures.add({"<code>" + escaped_text(figure["metric"]) + "</code>",
+                     number(figure["value"].get<double>()), escaped_text(figure["evidence"]),
+                     escaped_text(figure["method"])});
     std::string work;
     for (const auto& [effect, evaluated] : table_->bake_evaluations)
         work += (work.empty() ? "" : ", ") + escaped(effect) + " " + count(evaluated);
-    return "<h2>Table: the DFG term</h2>\n<p>Directional albedo of the GGX lobe and of Disney diffuse, 128 × 128. Row 0 is "
-           "the lowest roughness; texel centers lie at (i + ½) / 128. A material's specular albedo is f0 · scale + f90 · "
+    return "<h2>Table: the DFG term</h2>\n<p>Directional albedo of the GGX lobe and of Disney diffuse, 128 × "
+           "128. Row 0 is "
+           "the lowest roughness; texel centers lie at (i + ½) / 128. A material's specular albedo is f0 · "
+           "scale + f90 · "
            "bias.</p>\n<div class=charts>" +
-           charts + "</div>\n" + false_colour_scale("0", "highest") + "<h3>Certificate</h3>\n" + figures.html() +
-           "<p class=soft>Evaluations: " + work + ".</p>\n" + stage_table({table_}, {"bake dfg"}) + "<h3>Record</h3>\n" +
-           facts(*table_);
+           charts + "</div>\n" + false_colour_scale("0", "highest") + "<h3>Certificate</h3>\n" +
+           figures.html() + "<p class=soft>Evaluations: " + work + ".</p>\n" +
+           stage_table({table_}, {"bake dfg"}) + "<h3>Record</h3>\n" + facts(*table_);
 }
 
 std::string DemoPage::reading() const {
-    return "<h2>How to read this page</h2>\n<dl><dt>display</dt><dd>Values are multiplied by the exposure, 1 / (1.2 · "
-           "2<sup>EV100</sup>) for luminance in cd/m², clipped to [0, 1], and encoded by sRGB's curve. No other tone "
-           "mapping.</dd><dt>scale</dt><dd>Half floats end at 65,504. A probe whose peak lies above is stored times a power "
-           "of two; divide by it. Pictures and errors here are of divided values.</dd><dt>times</dt><dd>Of this one run, on "
-           "this machine, other processes included. They are on this page alone: products, records and manifest "
-           "are the same bytes in every run.</dd><dt>repeat</dt><dd><code>pbrbake bake job.json</code> in this "
+    return "<h2>How to read this page</h2>\n<dl><dt>display</dt><dd>Values are multiplied by the exposure, 1 "
+           "/ (1.2 · "
+           "2<sup>EV100</sup>) for luminance in cd/m², clipped to [0, 1], and encoded by sRGB's curve. No "
+           "other tone "
+           "mapping.</dd><dt>scale</dt><dd>Half floats end at 65,504. A probe whose peak lies above is "
+           "stored times a power "
+           "of two; divide by it. Pictures and errors here are of divided values.</dd><dt>times</dt><dd>Of "
+           "this one run, on "
+           "this machine, other processes included. They are on this page alone: products, records and "
+           "manifest "
+           "are the same bytes in every run.</dd><dt>repeat</dt><dd><code>pbrbake bake job.json</code> in "
+           "this "
            "folder bakes the same bytes again; <code>pbrbake inspect FILE</code> shows what a product "
            "holds.</dd></dl>\n<h3>The job</h3>\n<pre>" +
            escaped(job::to_text(demo_job(environments_[0].probes.size() > 2))) + "</pre>\n";

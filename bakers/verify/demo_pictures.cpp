@@ -31,7 +31,8 @@ glm::dvec3 look_up(const BakedImage& table, double NoV, double perceptual_roughn
         return glm::dvec3(texel[0], texel[1], texel[2]) / table.scale;
     };
     const double tx = x - x0, ty = y - y0;
-    return (1 - ty) * ((1 - tx) * at(y0, x0) + tx * at(y0, x1)) + ty * ((1 - tx) * at(y1, x0) + tx * at(y1, x1));
+    return (1 - ty) * ((1 - tx) * at(y0, x0) + tx * at(y0, x1)) +
+           ty * ((1 - tx) * at(y1, x0) + tx * at(y1, x1));
 }
 
 double mean_luminance(const BakedImage& probe, int level) {
@@ -58,13 +59,21 @@ BakedImage read_baked(const run::BakeReport& bake) {
 
 const std::vector<EnvironmentLook>& environment_looks() {
     static const std::vector<EnvironmentLook> looks{
-        {"outdoor", "Outdoor",
-         "A clear sky, ground of albedo 0.2, and the sun at 45°: 0.53° across, 100,000 lx, 1.47 × 10<sup>9</sup> "
+        {"outdoor",
+         "Outdoor",
+         "A clear sky, ground of albedo 0.2, and the sun at 45°: 0.53° across, 100,000 lx, 1.47 × "
+         "10<sup>9</sup> "
          "cd/m², on a few texels of the source.",
-         15, {-0.2, -0.05, -1}, {0.91, 0.92, 0.92}},
-        {"indoor", "Indoor",
-         "A room of 7 × 3 × 5 m with a window of 3,500 to 6,000 cd/m², two lamps of 20,000 cd/m² and a tiled floor.", 8,
-         {-0.8, -0.1, 0.6}, {1, 0.77, 0.34}},
+         15,
+         {-0.2, -0.05, -1},
+         {0.91, 0.92, 0.92}},
+        {"indoor",
+         "Indoor",
+         "A room of 7 × 3 × 5 m with a window of 3,500 to 6,000 cd/m², two lamps of 20,000 cd/m² and a tiled "
+         "floor.",
+         8,
+         {-0.8, -0.1, 0.6},
+         {1, 0.77, 0.34}},
     };
     return looks;
 }
@@ -81,7 +90,9 @@ Picture hero_picture(const EnvironmentLook& look, const BakedImage& probe, const
              const glm::dvec3 dfg = look_up(table, NoV, perceptual_roughness);
              return exposure * lookup(reflected, perceptual_roughness) * (look.metal_f0 * dfg.x + dfg.y);
          },
-         [&](const glm::dvec3& direction) { return exposure * lookup(direction, kBackgroundPerceptualRoughness); }});
+         [&](const glm::dvec3& direction) {
+             return exposure * lookup(direction, kBackgroundPerceptualRoughness);
+         }});
 }
 
 Picture level_ball(const EnvironmentLook& look, const BakedImage& probe, int level) {
@@ -104,15 +115,18 @@ Picture level_0_cross(const EnvironmentLook& look, const BakedImage& probe) {
             for (int x = 0; x < n; ++x)
                 for (int c = 0; c < 3; ++c) {
                     float sum = 0;
-                    for (int k = 0; k < 4; ++k) sum += probe.image.texel(0, face, 2 * y + k / 2, 2 * x + k % 2)[c];
+                    for (int k = 0; k < 4; ++k)
+                        sum += probe.image.texel(0, face, 2 * y + k / 2, 2 * x + k % 2)[c];
                     half.texel(0, face, y, x)[c] = sum / 4;
                 }
     return cross_picture(half, 0, exposure_of_ev100(look.ev100) / probe.scale, {128, 128, 128});
 }
 
 Picture difference_ball(const EnvironmentLook& look, const BakedImage& a, const BakedImage& b, int level) {
-    const Radiance of_a = radiance_of_level(a.image, level, a.scale), of_b = radiance_of_level(b.image, level, b.scale);
-    const double mean = mean_luminance(b, level), decades = std::log(kMostDifferenceShown / kLeastDifferenceShown);
+    const Radiance of_a = radiance_of_level(a.image, level, a.scale),
+                   of_b = radiance_of_level(b.image, level, b.scale);
+    const double mean = mean_luminance(b, level),
+                 decades = std::log(kMostDifferenceShown / kLeastDifferenceShown);
     return ball_picture(kBallSize, View(look.camera), [&](const glm::dvec3&, const glm::dvec3& reflected) {
         const double share = std::abs(luminance(of_a(reflected) - of_b(reflected))) / mean;
         return decoded(false_colour(std::log(std::max(share / kLeastDifferenceShown, 1.0)) / decades));
@@ -123,13 +137,15 @@ Picture channel_picture(const BakedImage& table, int channel, double& highest) {
     const Level& level = table.image.levels[0];
     const int channels = table.image.channel_count();
     highest = 0;
-    for (std::size_t i = static_cast<std::size_t>(channel); i < level.texels.size(); i += static_cast<std::size_t>(channels))
+    for (std::size_t i = static_cast<std::size_t>(channel); i < level.texels.size();
+         i += static_cast<std::size_t>(channels))
         highest = std::max(highest, level.texels[i] / table.scale);
     Picture picture(level.width, level.height);
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < level.width; ++x)
             put(picture, x, y,
-                decoded(false_colour(table.image.texel(0, 0, y, x)[channel] / table.scale / std::max(highest, 1e-30))));
+                decoded(false_colour(table.image.texel(0, 0, y, x)[channel] / table.scale /
+                                     std::max(highest, 1e-30))));
     return picture;
 }
 
@@ -149,11 +165,12 @@ std::string false_colour_scale(const std::string& low, const std::string& high) 
     constexpr int kStops = 8;
     for (int i = 0; i <= kStops; ++i) {
         const glm::dvec3 colour = 255.0 * false_colour(static_cast<double>(i) / kStops);
-        stops += ",rgb(" + std::to_string(std::lround(colour.x)) + "," + std::to_string(std::lround(colour.y)) + "," +
-                 std::to_string(std::lround(colour.z)) + ")";
+        stops += ",rgb(" + std::to_string(std::lround(colour.x)) + "," +
+                 std::to_string(std::lround(colour.y)) + "," + std::to_string(std::lround(colour.z)) + ")";
     }
-    return "<div style=\"max-width:320px\"><div class=scale style=\"background:linear-gradient(90deg" + stops +
-           ")\"></div><div class=ends><span>" + low + "</span><span>" + high + "</span></div></div>\n";
+    return "<div style=\"max-width:320px\"><div class=scale style=\"background:linear-gradient(90deg" +
+           stops + ")\"></div><div class=ends><span>" + low + "</span><span>" + high +
+           "</span></div></div>\n";
 }
 
 std::string scale_text(double scale) {

@@ -20,7 +20,7 @@ BakedImage read_baked(const run::BakeReport& bake);
 struct EnvironmentLook {
     std::string name, title, description;
     double ev100;
-    glm::dvec3 camera;   ///< where the camera looks
+    glm::dvec3 camera;  ///< where the camera looks
     glm::dvec3 metal_f0;
 };
 const std::vector<EnvironmentLook>& environment_looks();

@@ -110,8 +110,7 @@ std::string base64(std::span<const std::byte> bytes) {
         std::uint32_t group = 0;
         for (std::size_t k = 0; k < 3; ++k)
             group = group << 8 | (k < given ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += k <= given ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+        for (std::size_t k = 0; k < 4; ++k) text += k <= given ? kDigits[group >> (18 - 6 * k) & 63] : '=';
     }
     return text;
 }
@@ -131,7 +130,8 @@ std::string number(double value) {
     if (exponent < -3 || exponent > 8) return scientific(value);
     if (exponent <= 2) return to_chars(value, std::chars_format::fixed, 2 - exponent);
     const double unit = std::pow(10.0, exponent - 2);
-    const auto whole = static_cast<unsigned long long>(std::llround(std::abs(value) / unit) * std::llround(unit));
+    const auto whole =
+        static_cast<unsigned long long>(std::llround(std::abs(value) / unit) * std::llround(unit));
     std::string text = count(whole);
     if (value < 0) text.insert(0, 1, '-');
     return text;
@@ -160,8 +160,8 @@ std::string page(std::string_view title, std::string_view body) {
     return "<!DOCTYPE html>\n<html lang=en>\n<head>\n<meta charset=utf-8>\n"
            "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"
            "<meta name=generator content=pbrbake>\n<link rel=icon href=\"data:,\">\n<title>" +
-           escaped(title) + "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n<main>\n" +
-           std::string(body) + "</main>\n</body>\n</html>\n";
+           escaped(title) + "</title>\n<style>" + std::string(kStyle) +
+           "</style>\n</head>\n<body>\n<main>\n" + std::string(body) + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace pbrbake::verify

@@ -15,8 +15,8 @@ std::string escaped(std::string_view text);
 /// RFC 4648, with padding.
 std::string base64(std::span<const std::byte> bytes);
 
-/// A number with three significant digits: "0.00123", "1.50", "12.3", "1,230", "1.23e-6". Zero is "0"; NaN and Inf are
-/// named.
+/// A number with three significant digits: "0.00123", "1.50", "12.3", "1,230", "1.23e-6". Zero is "0"; NaN
+/// and Inf are named.
 std::string number(double value);
 
 /// A share as per cent, three significant digits: "1.23 %".
@@ -25,7 +25,8 @@ std::string percent(double share);
 /// A count with its thousands set apart: "134,217,728".
 std::string count(unsigned long long value);
 
-/// A table. Cells are HTML: escape what isn't. Columns after the first are aligned right unless named as text.
+/// A table. Cells are HTML: escape what isn't. Columns after the first are aligned right unless named as
+/// text.
 class Table {
   public:
     explicit Table(std::vector<std::string> heads) : heads_(std::move(heads)) {}

@@ -16,15 +16,16 @@
 namespace pbrbake::verify {
 namespace {
 
-constexpr double kSaturationOverEv = 1.2;  // lens and sensor of ISO 12232's saturation speed: 78 / (100 * .65)
+constexpr double kSaturationOverEv =
+    1.2;  // lens and sensor of ISO 12232's saturation speed: 78 / (100 * .65)
 
 /// Where the six faces lie in the unfolded cross, in faces: +X -X +Y -Y +Z -Z.
 constexpr std::array<std::array<int, 2>, 6> kCrossPlaces{{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}}};
 
 constexpr int kGrid = 2;  // samples a side of a pixel
 
-/// Calls colour(u, v) for the samples of every pixel, in pixels, and stores their means. Each sample is clipped before:
-/// a highlight's edge is then as smooth as any other.
+/// Calls colour(u, v) for the samples of every pixel, in pixels, and stores their means. Each sample is
+/// clipped before: a highlight's edge is then as smooth as any other.
 template <class Colour>
 Picture rendered(int width, int height, const Colour& colour) {
     Picture picture(width, height);
@@ -32,7 +33,8 @@ Picture rendered(int width, int height, const Colour& colour) {
         for (int x = 0; x < width; ++x) {
             glm::dvec3 sum(0);
             for (int k = 0; k < kGrid * kGrid; ++k)
-                sum += glm::clamp(colour(x + (k % kGrid + 0.5) / kGrid, y + (k / kGrid + 0.5) / kGrid), 0.0, 1.0);
+                sum += glm::clamp(colour(x + (k % kGrid + 0.5) / kGrid, y + (k / kGrid + 0.5) / kGrid), 0.0,
+                                  1.0);
             put(picture, x, y, sum / double{kGrid * kGrid});
         }
     return picture;
@@ -107,7 +109,8 @@ glm::dvec3 ProbeLookup::operator()(const glm::dvec3& direction, double perceptua
     return levels_[lower](direction) * (1 - t) + levels_[upper](direction) * t;
 }
 
-Picture cross_picture(const Image& cube, int level, double factor, const std::array<std::uint8_t, 3>& background) {
+Picture cross_picture(const Image& cube, int level, double factor,
+                      const std::array<std::uint8_t, 3>& background) {
     const int n = cube.levels[static_cast<std::size_t>(level)].width;
     Picture picture(4 * n, 3 * n);
     for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = background[i % 3];
@@ -151,7 +154,8 @@ Picture strip_picture(const StripScene& scene) {
             return scene.shade(ball, normal, glm::reflect(view.forward, normal));
         }
         const double to_image = 2 * half_width / scene.width;
-        return scene.background(glm::normalize(view.forward + (x - 0.5 * scene.width) * to_image * view.right +
+        return scene.background(glm::normalize(view.forward +
+                                               (x - 0.5 * scene.width) * to_image * view.right +
                                                (0.5 * scene.height - y) * to_image * view.up));
     });
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Products as pictures for people: exposure, tone, false colour, and layouts of cube maps. For reports alone; nothing
-// here goes into a product.
+// Products as pictures for people: exposure, tone, false colour, and layouts of cube maps. For reports alone;
+// nothing here goes into a product.
 
 #include <array>
 #include <cstdint>
@@ -30,23 +30,26 @@ struct Picture {
 /// "data:image/png;base64,…"
 std::string data_uri(const Picture& picture);
 
-/// Multiplies luminance in cd/m^2 so that 1 is what saturates a sensor at this exposure value: 1 / (1.2 * 2^EV100)
-/// (ISO 2720 and 12232 as in Lagarde & de Rousiers 2014, 5.1.2).
+/// Multiplies luminance in cd/m^2 so that 1 is what saturates a sensor at this exposure value: 1 / (1.2 *
+/// 2^EV100) (ISO 2720 and 12232 as in Lagarde & de Rousiers 2014, 5.1.2).
 double exposure_of_ev100(double ev100);
 
-/// The display transform: sRGB's curve (IEC 61966-2-1) of a linear value, as a byte; clipped to [0, 1] before. NaN is 0.
+/// The display transform: sRGB's curve (IEC 61966-2-1) of a linear value, as a byte; clipped to [0, 1]
+/// before. NaN is 0.
 std::uint8_t srgb_byte(double linear);
 
 /// Writes a pixel from linear light.
 void put(Picture& picture, int x, int y, const glm::dvec3& linear);
 
-/// A colour scale for [0, 1], dark to light and even in lightness (viridis), display-encoded; clipped outside.
+/// A colour scale for [0, 1], dark to light and even in lightness (viridis), display-encoded; clipped
+/// outside.
 glm::dvec3 false_colour(double value);
 
 /// Radiance seen in a direction (unit vector).
 using Radiance = std::function<glm::dvec3(const glm::dvec3& direction)>;
 
-/// One level of a cube map, bilinear and seamless across edges; values divided by `scale`. Sizes are powers of two.
+/// One level of a cube map, bilinear and seamless across edges; values divided by `scale`. Sizes are powers
+/// of two.
 Radiance radiance_of_level(const Image& cube, int level, double scale);
 
 /// Between levels as a shader's trilinear lookup reads it: level = (levels - 1) * perceptual_roughness.
@@ -59,9 +62,10 @@ class ProbeLookup {
     std::vector<Radiance> levels_;
 };
 
-/// One level unfolded: 4n x 3n, +Y and -Y above and below +Z, as drawn in libpbr's ibl/cubemap.hpp; what no face
-/// covers is `background` (display-encoded).
-Picture cross_picture(const Image& cube, int level, double factor, const std::array<std::uint8_t, 3>& background);
+/// One level unfolded: 4n x 3n, +Y and -Y above and below +Z, as drawn in libpbr's ibl/cubemap.hpp; what no
+/// face covers is `background` (display-encoded).
+Picture cross_picture(const Image& cube, int level, double factor,
+                      const std::array<std::uint8_t, 3>& background);
 
 /// A camera's frame: right-handed, y up as far as `towards` allows.
 struct View {
@@ -69,12 +73,13 @@ struct View {
     glm::dvec3 right, up, forward;
 };
 
-/// A mirror ball seen from afar: the colour of each point of the disk from its normal and the direction it reflects
-/// into. `shade` is called with both. Pixels outside the disk get the colour of its nearest point.
+/// A mirror ball seen from afar: the colour of each point of the disk from its normal and the direction it
+/// reflects into. `shade` is called with both. Pixels outside the disk get the colour of its nearest point.
 using BallShade = std::function<glm::dvec3(const glm::dvec3& normal, const glm::dvec3& reflected)>;
 Picture ball_picture(int size, const View& view, const BallShade& shade);
 
-/// A row of `balls` before a background, which the camera sees in perspective, `width_deg` of it across the picture.
+/// A row of `balls` before a background, which the camera sees in perspective, `width_deg` of it across the
+/// picture.
 struct StripScene {
     int width, height, balls;
     double width_deg;

@@ -24,13 +24,15 @@ TEST(Demo, WritesProductsAPageAndTheJobThatRepeatsThem) {
     const auto before = contents(demo);
     std::vector<std::string> names;
     for (const auto& [name, bytes] : before) names.push_back(name);
-    EXPECT_THAT(names, IsSupersetOf({"dfg.exr", "indoor_1024.ktx2", "indoor_32.ktx2", "index.html", "job.json",
-                                     "manifest.json", "outdoor_1024.ktx2", "outdoor_32.ktx2"}));
+    EXPECT_THAT(names, IsSupersetOf({"dfg.exr", "indoor_1024.ktx2", "indoor_32.ktx2", "index.html",
+                                     "job.json", "manifest.json", "outdoor_1024.ktx2", "outdoor_32.ktx2"}));
     const std::string page = read_file(folder / "demo/index.html");
     EXPECT_LT(page.size(), 3'000'000u);
-    for (const char* word : {"http:", "https:", "<script", "NaN", "Inf "}) EXPECT_THAT(page, Not(HasSubstr(word)));
+    for (const char* word : {"http:", "https:", "<script", "NaN", "Inf "})
+        EXPECT_THAT(page, Not(HasSubstr(word)));
 
-    EXPECT_EQ(run_program({"bake", "--quiet", "--only", "dfg", "--only", "indoor_32", demo + "/job.json"}).code, 0);
+    EXPECT_EQ(
+        run_program({"bake", "--quiet", "--only", "dfg", "--only", "indoor_32", demo + "/job.json"}).code, 0);
     EXPECT_EQ(contents(demo), before);
 }
 

@@ -1,4 +1,5 @@
-// The rules of the house that the compiler doesn't hold: who includes what, and words that must not be written.
+// The rules of the house that the compiler doesn't hold: who includes what, and words that must not be
+// written.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -69,7 +70,8 @@ std::vector<std::string> writers(const std::vector<Line>& lines, const std::stri
     const std::regex what(pattern), who(allowed);
     std::vector<std::string> found;
     for (const Line& line : lines)
-        if (std::regex_search(line.text, what) && !std::regex_search(line.file, who)) found.push_back(line.place());
+        if (std::regex_search(line.text, what) && !std::regex_search(line.file, who))
+            found.push_back(line.place());
     return found;
 }
 
@@ -91,8 +93,10 @@ TEST(House, IsWhereTheTestsLook) {
 }
 
 TEST(House, LibpbrKnowsStdGlmHighwayAndItself) {
-    // A name without a slash or dot is the standard library's. Highway wants to name the file it includes again.
-    EXPECT_THAT(includers(lines_of("libpbr"), R"(^(?!<[a-z_0-9]+>|<glm/|<hwy/|"hwy/|"pbr/|"src/simd/|HWY_TARGET_INCLUDE))"),
+    // A name without a slash or dot is the standard library's. Highway wants to name the file it includes
+    // again.
+    EXPECT_THAT(includers(lines_of("libpbr"),
+                          R"(^(?!<[a-z_0-9]+>|<glm/|<hwy/|"hwy/|"pbr/|"src/simd/|HWY_TARGET_INCLUDE))"),
                 testing::IsEmpty());
 }
 
@@ -103,7 +107,8 @@ TEST(House, LibpbrHasNoFilesThreadsOrClocks) {
 }
 
 TEST(House, ImageLibrariesAreBehindIo) {
-    EXPECT_THAT(includers(lines_of_all(kCode), "^[<\"](OpenImageIO|OpenEXR|OpenColorIO|Imf|Iex|IlmThread)", "^bakers/io/"),
+    EXPECT_THAT(includers(lines_of_all(kCode), "^[<\"](OpenImageIO|OpenEXR|OpenColorIO|Imf|Iex|IlmThread)",
+                          "^bakers/io/"),
                 testing::IsEmpty());
 }
 
@@ -121,14 +126,17 @@ TEST(House, LayersPointOneWay) {
 
 TEST(House, BakersKnowTheContractAndLibpbrAlone) {
     for (const std::string& name : baker_folders())
-        EXPECT_THAT(includers(lines_of("bakers/" + name), "^\"(bakers|cli)/(?!" + name + R"(/|[a-z_]+\.hpp"))"),
-                    testing::IsEmpty());
+        EXPECT_THAT(
+            includers(lines_of("bakers/" + name), "^\"(bakers|cli)/(?!" + name + R"(/|[a-z_]+\.hpp"))"),
+            testing::IsEmpty());
 }
 
 TEST(House, JsonTextIsMadeAndReadInOnePlace) {
     // Everyone else goes through bakers/job/json_text.hpp: strict when reading, one layout when writing.
-    EXPECT_THAT(writers(lines_of_all(kCode), R"(\.dump\(|[Jj]son::parse\(|\.parse\(text)", "^bakers/job/"), testing::IsEmpty());
-    EXPECT_THAT(includers(lines_of_all(kCode), "json_text", "^(bakers/(job|parse|run|verify)|cli)/"), testing::IsEmpty());
+    EXPECT_THAT(writers(lines_of_all(kCode), R"(\.dump\(|[Jj]son::parse\(|\.parse\(text)", "^bakers/job/"),
+                testing::IsEmpty());
+    EXPECT_THAT(includers(lines_of_all(kCode), "json_text", "^(bakers/(job|parse|run|verify)|cli)/"),
+                testing::IsEmpty());
 }
 
 TEST(House, ValijsonIsInOneFile) {

@@ -25,7 +25,8 @@ TEST(Page, EscapesItsTitle) { EXPECT_THAT(page("<script>", ""), Not(HasSubstr("<
 
 TEST(Page, NeedsNoNetworkAndNoScript) {
     const std::string html = page("title", "<p>body</p>");
-    for (const char* word : {"http:", "https:", "<script", "@import", "url("}) EXPECT_THAT(html, Not(HasSubstr(word)));
+    for (const char* word : {"http:", "https:", "<script", "@import", "url("})
+        EXPECT_THAT(html, Not(HasSubstr(word)));
     EXPECT_THAT(html, HasSubstr("<p>body</p>"));
 }
 

@@ -67,14 +67,15 @@ TEST(Cross, PutsNeighboursOfTheCubeSideBySide) {
     };
     for (int i = 0; i < n; ++i) {
         for (const int edge : {n, 2 * n, 3 * n}) near(edge - 1, n + i, edge, n + i);  // along the middle row
-        near(n + i, n - 1, n + i, n);                                                // +Y above +Z
-        near(n + i, 2 * n - 1, n + i, 2 * n);                                        // -Y below +Z
+        near(n + i, n - 1, n + i, n);                                                 // +Y above +Z
+        near(n + i, 2 * n - 1, n + i, 2 * n);                                         // -Y below +Z
     }
     EXPECT_EQ(cross.pixel(0, 0)[0], 9);
 }
 
 TEST(Cross, HasPlusZInTheMiddleAndPlusXToItsRight) {
-    const Image cube = cube_of(4, [](int face, const glm::dvec3&) { return glm::dvec3(face == 0, face == 4, face == 2); });
+    const Image cube =
+        cube_of(4, [](int face, const glm::dvec3&) { return glm::dvec3(face == 0, face == 4, face == 2); });
     const Picture cross = cross_picture(cube, 0, 1, {0, 0, 0});
     EXPECT_EQ(cross.pixel(6, 6)[1], 255);
     EXPECT_EQ(cross.pixel(10, 6)[0], 255);
@@ -83,7 +84,7 @@ TEST(Cross, HasPlusZInTheMiddleAndPlusXToItsRight) {
 
 TEST(Ball, ReflectsTheCameraInItsMiddleAndWhatIsBehindAtItsRim) {
     const View view({0, 0, -1});  // looks at -z, so +x is right and +y up
-    
+
     const Picture ball = ball_picture(64, view, [](const glm::dvec3&, const glm::dvec3& reflected) {
         return glm::dvec3(reflected.z > 0.9, reflected.x > 0.7, reflected.y > 0.7);
     });
@@ -96,8 +97,8 @@ TEST(Ball, ReflectsTheCameraInItsMiddleAndWhatIsBehindAtItsRim) {
 TEST(Level, IsReadInItsDirectionAndUnscaled) {
     const Image cube = cube_of(16, [](int, const glm::dvec3& d) { return 0.25 * (glm::dvec3(2) + d); });
     const Radiance radiance = radiance_of_level(cube, 0, 0.25);
-    for (const glm::dvec3& d : {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::normalize(glm::dvec3(1, 2, -3)),
-                                glm::normalize(glm::dvec3(1, 1, 1))})
+    for (const glm::dvec3& d : {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0),
+                                glm::normalize(glm::dvec3(1, 2, -3)), glm::normalize(glm::dvec3(1, 1, 1))})
         EXPECT_LT(glm::length(radiance(d) - (glm::dvec3(2) + d)), 0.1);
 }
 
