@@ -20,11 +20,11 @@ constexpr double kTruth = 1e-8;
 /// The true channels at views of one roughness.
 std::vector<float> true_texels(const DfgParams& params, const std::vector<double>& NoV, double perceptual_roughness,
                                Context& context) {
-    static const pbr::DfgRule rule = pbr::dfg_rule(kTruth);
+    static const pbr::DfgMethod truth = pbr::DfgMethod::quadrature(kTruth);
     std::vector<double> E(NoV.size()), Fc(NoV.size());
     if (has_term(params, Term::ggx)) {
-        pbr::dfg_ggx_row(NoV, pbr::alpha_from_perceptual_roughness(perceptual_roughness), rule, E, Fc);
-        context.count("certify.ggx", NoV.size() * static_cast<std::uint64_t>(rule.evaluations()));
+        pbr::dfg_ggx_row(NoV, pbr::alpha_from_perceptual_roughness(perceptual_roughness), truth, E, Fc);
+        context.count("certify.ggx", NoV.size() * static_cast<std::uint64_t>(truth.evaluations()));
     }
     const std::size_t channels = static_cast<std::size_t>(column_count(params));
     std::vector<float> texels(NoV.size() * channels);

@@ -2,6 +2,8 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,84 +18,95 @@ namespace {
 
 constexpr double kLargestPyramid = 1024;  // 134 MB of RGBA floats; far finer than any lobe that is sampled
 
-/// Calls row(face, y, span of RGB) for every row of a level.
+Level empty_level(int size) { return {size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)}; }
+
+float* texel_of(Level& level, const pbr::CubeTexel& texel) {
+    return &level.texels[((static_cast<std::size_t>(texel.face) * level.height + texel.y) * level.width + texel.x) * 3];
+}
+
+/// Fills a level by row(face, y, RGB of the row).
 template <class Row>
-void fill_level(Context& context, int size, Level& level, double work, const Row& row) {
-    level = {size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)};
+void fill_rows(Context& context, int size, Level& level, const Row& row) {
+    level = empty_level(size);
     const std::size_t stride = static_cast<std::size_t>(size) * 3;
     context.parallel_for(6 * size, std::max(1, 64 / size), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            const int face = static_cast<int>(i / size), y = static_cast<int>(i % size);
-            row(face, y, std::span(&level.texels[static_cast<std::size_t>(i) * stride], stride));
-            context.advance(work * size);
+            row(static_cast<int>(i / size), static_cast<int>(i % size),
+                std::span(&level.texels[static_cast<std::size_t>(i) * stride], stride));
+            context.advance(size);
         }
     });
 }
 
-/// Exact levels, in tiles of 4 x 4 texels: the kernel's groups of directions then lie close together.
-void exact_level(Context& context, const pbr::PatchBlocks& blocks, double alpha, int size, Level& level, double work) {
-    level = {size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)};
-    const int side = std::min(size, 4), tiles = (size + side - 1) / side;
+/// Fills a level by integration, in strips of 4 x 4 tiles: the exact estimator likes texels that lie together.
+void fill_strips(Context& context, const pbr::LdIntegrator& integrator, int size, double work_of_texel, Level& level) {
+    level = empty_level(size);
+    const int side = std::min(size, 4), strips = (size + side - 1) / side;
     std::atomic<std::uint64_t> evaluations{0};
-    context.parallel_for(6 * tiles, 1, [&](std::int64_t begin, std::int64_t end) {
+    context.parallel_for(6 * strips, 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            const int face = static_cast<int>(i / tiles), top = static_cast<int>(i % tiles) * side;
-            std::vector<glm::dvec3> directions;
-            std::vector<float*> texels;
+            const int face = static_cast<int>(i / strips), top = static_cast<int>(i % strips) * side;
+            std::vector<pbr::CubeTexel> texels;
             for (int left = 0; left < size; left += side)
                 for (int y = top; y < std::min(top + side, size); ++y)
-                    for (int x = left; x < std::min(left + side, size); ++x) {
-                        directions.push_back(pbr::cubemap_texel_direction({face, x, y}, size));
-                        texels.push_back(&level.texels[((static_cast<std::size_t>(face) * size + y) * size + x) * 3]);
-                    }
-            std::vector<double> rgb(directions.size() * 3);
-            std::uint64_t used = 0;
-            pbr::ld_exact(blocks, alpha, directions, rgb, used);
-            evaluations += used;
-            for (std::size_t k = 0; k < texels.size(); ++k)
-                for (std::size_t c = 0; c < 3; ++c) texels[k][c] = static_cast<float>(rgb[k * 3 + c]);
-            context.advance(work * static_cast<double>(directions.size()));
+                    for (int x = left; x < std::min(left + side, size); ++x) texels.push_back({face, x, y});
+            std::vector<float> rgb(texels.size() * 3);
+            evaluations += integrator.integrate(size, texels, rgb);
+            for (std::size_t k = 0; k < texels.size(); ++k) std::copy_n(&rgb[k * 3], 3, texel_of(level, texels[k]));
+            context.advance(work_of_texel * static_cast<double>(texels.size()));
         }
     });
-    context.count("ld.kernel", evaluations);
-}
-
-/// Work of a texel, in samples: for the progress bar.
-double work_of_texel(const ProbeParams& params, int level, const Environment& environment) {
-    if (level == 0) return 100;
-    if (params.integrator != Integrator::reference) return samples_of_level(params, level);
-    const double n = environment.equivalent_size();
-    return 6 * n * n / 8;
+    context.count("ld", evaluations);
 }
 
 /// Texels a side of the pyramid that samples read: about ten across the narrowest lobe (finer ones change no digit of the
-/// result), but not below a quarter of the source's texels, whose edges it then shows exactly enough.
+/// result), but no texel below a quarter of the source's, whose edges it then shows exactly enough.
 int pyramid_size(const ProbeParams& params, const Environment& environment) {
     const double alpha = pbr::alpha_from_perceptual_roughness(perceptual_roughness_of_level(params, 1));
     const double wanted = std::min({8 / alpha, 4.0 * environment.equivalent_size(), kLargestPyramid});
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(wanted))));
 }
 
-void sampled_levels(const ProbeParams& params, const Environment& environment, Context& context, Image& image) {
+pbr::CubePyramid make_pyramid(const ProbeParams& params, const Environment& environment, const Level& level_0,
+                              Context& context) {
     const int base = pyramid_size(params, environment);
+    if (base == params.size && base <= environment.equivalent_size()) return {level_0.texels, base};
     Level resampled;
-    const bool level_0_serves = base == params.size && base <= environment.equivalent_size();
-    if (!level_0_serves)
-        fill_level(context, base, resampled, 0, [&](int face, int y, std::span<float> rgb) {
-            environment.resample_area_row(base, face, y, rgb);
-        });
-    const pbr::CubePyramid pyramid(level_0_serves ? image.levels[0].texels : resampled.texels, base);
-    const auto estimator = params.integrator == Integrator::is ? pbr::LdEstimator::importance_sampling
-                                                               : pbr::LdEstimator::filtered_importance_sampling;
+    fill_rows(context, base, resampled, [&](int face, int y, std::span<float> rgb) {
+        environment.resample_area_row(base, face, y, rgb);
+    });
+    return {resampled.texels, base};
+}
+
+pbr::LdMethod method_of_level(const ProbeParams& params, int level) {
+    if (params.integrator == Integrator::reference) return {};
+    return {params.integrator == Integrator::is ? pbr::LdEstimator::importance_sampling
+                                                : pbr::LdEstimator::filtered_importance_sampling,
+            samples_of_level(params, level), params.level_bias, params.seed};
+}
+
+/// Work of a texel for the progress bar, a resampled texel being 1.
+double work_of_texel(const ProbeParams& params, int level, const Environment& environment) {
+    if (params.integrator != Integrator::reference) return samples_of_level(params, level) * 0.01;
+    const double n = environment.equivalent_size();
+    return 6 * n * n * 1e-3;
+}
+
+/// Levels from 1 on.
+void filtered_levels(const ProbeParams& params, const Environment& environment, Context& context, Image& image) {
+    std::optional<pbr::PatchBlocks> source;
+    std::optional<pbr::CubePyramid> pyramid;
+    if (params.integrator == Integrator::reference) {
+        source.emplace(environment.blocks());
+    } else {
+        pyramid.emplace(make_pyramid(params, environment, image.levels[0], context));
+    }
     for (int l = 1; l < level_count(params); ++l) {
-        const int size = size_of_level(params, l), samples = samples_of_level(params, l);
         const double alpha = pbr::alpha_from_perceptual_roughness(perceptual_roughness_of_level(params, l));
-        const pbr::LdSamples set = pbr::make_ld_samples(estimator, alpha, samples, base, params.level_bias);
-        fill_level(context, size, image.levels[static_cast<std::size_t>(l)], work_of_texel(params, l, environment),
-                   [&](int face, int y, std::span<float> rgb) {
-                       pbr::ld_sampled_row(pyramid, set, params.seed, size, face, y, rgb);
-                   });
-        context.count("ld.samples", std::uint64_t{6} * size * size * static_cast<std::uint64_t>(samples));
+        const pbr::LdIntegrator integrator(method_of_level(params, l), alpha, source ? &*source : nullptr,
+                                           pyramid ? &*pyramid : nullptr);
+        fill_strips(context, integrator, size_of_level(params, l), work_of_texel(params, l, environment),
+                    image.levels[static_cast<std::size_t>(l)]);
     }
 }
 
@@ -139,21 +152,14 @@ Product bake(const ProbeParams& params, const Inputs& inputs, Context& context) 
     image.channels = {"R", "G", "B"};
     image.faces = 6;
     image.levels.resize(static_cast<std::size_t>(level_count(params)));
-    for (int l = 0; l < level_count(params); ++l) {
-        const int size = size_of_level(params, l);
-        context.expect(6.0 * size * size * work_of_texel(params, l, environment));
+    context.expect(6.0 * params.size * params.size);
+    for (int l = 1; l < level_count(params); ++l) {
+        const double size = size_of_level(params, l);
+        context.expect(6 * size * size * work_of_texel(params, l, environment));
     }
-    fill_level(context, params.size, image.levels[0], work_of_texel(params, 0, environment),
-               [&](int face, int y, std::span<float> rgb) { environment.resample_row(params.size, face, y, rgb); });
-    if (level_count(params) > 1 && params.integrator != Integrator::reference)
-        sampled_levels(params, environment, context, image);
-    if (level_count(params) > 1 && params.integrator == Integrator::reference) {
-        const pbr::PatchBlocks blocks = environment.blocks();
-        for (int l = 1; l < level_count(params); ++l)
-            exact_level(context, blocks, pbr::alpha_from_perceptual_roughness(perceptual_roughness_of_level(params, l)),
-                        size_of_level(params, l), image.levels[static_cast<std::size_t>(l)],
-                        work_of_texel(params, l, environment));
-    }
+    fill_rows(context, params.size, image.levels[0],
+              [&](int face, int y, std::span<float> rgb) { environment.resample_row(params.size, face, y, rgb); });
+    if (level_count(params) > 1) filtered_levels(params, environment, context, image);
 
     Product product;
     product.images.push_back(std::move(image));

@@ -59,7 +59,7 @@ void tile_errors(const pbr::PatchBlocks& blocks, double alpha, const Product& pr
     std::vector<double> truth(directions.size() * 3);
     std::uint64_t evaluations = 0;
     pbr::ld_exact(blocks, alpha, directions, truth, evaluations);
-    context.count("certify.ld.kernel", evaluations);
+    context.count("certify.ld", evaluations);
     const double* exact = truth.data();
     for (std::size_t tile = 0; tile < places.size(); ++tile) {
         const auto [face, left, top] = places[tile];

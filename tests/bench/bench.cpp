@@ -22,24 +22,24 @@ std::vector<float> noise(std::size_t values) {
 
 /// A 128 x 128 ggx table at an accuracy of 10^-range(0).
 void DfgTable128(benchmark::State& state) {
-    const pbr::DfgRule rule = pbr::dfg_rule(std::pow(10.0, -static_cast<double>(state.range(0))));
+    const auto method = pbr::DfgMethod::quadrature(std::pow(10.0, -static_cast<double>(state.range(0))));
     std::vector<double> NoV(128), E(128), Fc(128);
     for (int x = 0; x < 128; ++x) NoV[x] = (x + 0.5) / 128;
     for (auto _ : state)
         for (int y = 0; y < 128; ++y) {
-            pbr::dfg_ggx_row(NoV, std::pow((y + 0.5) / 128, 2), rule, E, Fc);
+            pbr::dfg_ggx_row(NoV, std::pow((y + 0.5) / 128, 2), method, E, Fc);
             benchmark::DoNotOptimize(E.data());
         }
-    state.counters["evaluations/texel"] = rule.evaluations();
+    state.counters["evaluations/texel"] = method.evaluations();
 }
 BENCHMARK(DfgTable128)->DenseRange(2, 8)->Unit(benchmark::kMillisecond);
 
 /// The same table by Monte Carlo with range(0) samples a texel.
 void DfgTable128MonteCarlo(benchmark::State& state) {
+    const auto method = pbr::DfgMethod::importance_sampling(static_cast<int>(state.range(0)), 0);
     for (auto _ : state)
         for (int i = 0; i < 128 * 128; ++i)
-            benchmark::DoNotOptimize(pbr::dfg_ggx_importance_sampled((i % 128 + 0.5) / 128, std::pow((i / 128 + 0.5) / 128, 2),
-                                                                     static_cast<int>(state.range(0)), 0));
+            benchmark::DoNotOptimize(pbr::dfg_ggx((i % 128 + 0.5) / 128, std::pow((i / 128 + 0.5) / 128, 2), method));
 }
 BENCHMARK(DfgTable128MonteCarlo)->Arg(64)->Arg(1024)->Unit(benchmark::kMillisecond);
 
@@ -59,9 +59,11 @@ void LdSampledLevel(benchmark::State& state) {
     const pbr::LdSamples samples = pbr::make_ld_samples(pbr::LdEstimator::filtered_importance_sampling, 0.04,
                                                         static_cast<int>(state.range(0)), 256, 1);
     std::vector<float> row(128 * 3);
+    std::vector<pbr::CubeTexel> texels(128);
     int at = 0;
     for (auto _ : state) {
-        pbr::ld_sampled_row(pyramid, samples, 0, 128, at / 128 % 6, at % 128, row);
+        for (int x = 0; x < 128; ++x) texels[x] = {at / 128 % 6, x, at % 128};
+        pbr::ld_sampled(pyramid, samples, 0, 128, texels, row);
         benchmark::DoNotOptimize(row.data());
         ++at;
     }

@@ -119,4 +119,25 @@ LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int ba
     return samples;
 }
 
+LdIntegrator::LdIntegrator(const LdMethod& method, double alpha, const PatchBlocks* source, const CubePyramid* pyramid)
+    : method_(method), alpha_(alpha), source_(source), pyramid_(pyramid) {
+    const bool exact = method.estimator == LdEstimator::exact;
+    assert(exact ? source != nullptr : pyramid != nullptr && method.samples > 0);
+    if (!exact) samples_ = make_ld_samples(method.estimator, alpha, method.samples, pyramid->size(), method.level_bias);
+}
+
+std::uint64_t LdIntegrator::integrate(int size, std::span<const CubeTexel> texels, std::span<float> rgb_out) const {
+    if (method_.estimator != LdEstimator::exact) {
+        ld_sampled(*pyramid_, samples_, method_.seed, size, texels, rgb_out);
+        return texels.size() * static_cast<std::uint64_t>(samples_.count);
+    }
+    std::vector<glm::dvec3> directions;
+    for (const CubeTexel& texel : texels) directions.push_back(cubemap_texel_direction(texel, size));
+    std::vector<double> rgb(texels.size() * 3);
+    std::uint64_t evaluations = 0;
+    ld_exact(*source_, alpha_, directions, rgb, evaluations);
+    std::transform(rgb.begin(), rgb.end(), rgb_out.begin(), [](double value) { return static_cast<float>(value); });
+    return evaluations;
+}
+
 }  // namespace pbr

@@ -19,10 +19,9 @@
 #include <numbers>
 #include <vector>
 
-#include "pbr/brdf/fresnel.hpp"
 #include "pbr/brdf/ggx.hpp"
-#include "pbr/ibl/dfg.hpp"
 #include "pbr/numerics/elementary.hpp"
+#include "src/simd/dfg_kernel.hpp"
 #include "src/simd/vector_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -114,15 +113,8 @@ namespace pbr {
 
 HWY_EXPORT(dfg_row);
 
-void dfg_ggx_row(std::span<const double> NoV, double alpha, const DfgRule& rule, std::span<double> E,
-                 std::span<double> Fc) {
-    if (alpha <= 0) {
-        for (std::size_t i = 0; i < NoV.size(); ++i) {
-            E[i] = 1;
-            Fc[i] = schlick_weight(NoV[i]);
-        }
-        return;
-    }
+void dfg_quadrature_row(std::span<const double> NoV, double alpha, const DfgRule& rule, std::span<double> E,
+                        std::span<double> Fc) {
     HWY_DYNAMIC_DISPATCH(dfg_row)(NoV.data(), NoV.size(), alpha, rule, E.data(), Fc.data());
 }
 

@@ -159,14 +159,15 @@ TexelFrame frame_about(const glm::dvec3& n, double turns) {
 
 }  // namespace
 
-void ld_sampled_row(const CubePyramid& pyramid, const LdSamples& samples, std::uint64_t seed, int size, int face, int y,
-                    std::span<float> rgb_out) {
+void ld_sampled(const CubePyramid& pyramid, const LdSamples& samples, std::uint64_t seed, int size,
+                std::span<const CubeTexel> texels, std::span<float> rgb_out) {
     std::int32_t level_offsets[32];
     for (int level = 0; level < pyramid.levels(); ++level) level_offsets[level] = pyramid.offset(level);
-    for (int x = 0; x < size; ++x) {
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const auto& [face, x, y] = texels[i];
         const double turns = random_unit(seed, size, face, x, y);
-        const TexelFrame frame = frame_about(cubemap_texel_direction({face, x, y}, size), turns);
-        HWY_DYNAMIC_DISPATCH(sampled_texel)(pyramid, level_offsets, samples, frame, &rgb_out[static_cast<std::size_t>(x) * 3]);
+        const TexelFrame frame = frame_about(cubemap_texel_direction(texels[i], size), turns);
+        HWY_DYNAMIC_DISPATCH(sampled_texel)(pyramid, level_offsets, samples, frame, &rgb_out[i * 3]);
     }
 }
 

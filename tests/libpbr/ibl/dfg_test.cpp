@@ -43,9 +43,9 @@ DirectionalAlbedo by_directions_of_light(double NoV, double alpha) {
 }
 
 TEST(Dfg, AgreesWithAdaptiveQuadratureOverDirectionsOfLight) {
-    const DfgRule rule = dfg_rule(1e-8);
+    const DfgMethod method = DfgMethod::quadrature(1e-8);
     for (const auto& [alpha, NoV] : {std::pair{.1, .1}, {.1, .5}, {.25, .1}, {.5, .5}, {1., .1}, {1., .5}, {.05, .05}}) {
-        const DirectionalAlbedo ours = dfg_ggx(NoV, alpha, rule), witness = by_directions_of_light(NoV, alpha);
+        const DirectionalAlbedo ours = dfg_ggx(NoV, alpha, method), witness = by_directions_of_light(NoV, alpha);
         EXPECT_NEAR(ours.E, witness.E, 1e-8) << alpha << " " << NoV;
         EXPECT_NEAR(ours.Fc, witness.Fc, 1e-8) << alpha << " " << NoV;
     }
@@ -57,11 +57,11 @@ TEST(Dfg, HasThePublishedValues) {
                               {.5, .5, .69825070, .01014998},   {1, .1, .76021047, .02386689},
                               {1, .5, .45069386, .00298874},    {1, 1, 1 - std::log(2.0), 3.361e-5}};
     for (const auto& row : rows) {
-        const DirectionalAlbedo albedo = dfg_ggx(row[1], row[0], dfg_rule(1e-8));
+        const DirectionalAlbedo albedo = dfg_ggx(row[1], row[0], DfgMethod::quadrature(1e-8));
         EXPECT_NEAR(albedo.E, row[2], 1e-6) << row[0] << " " << row[1];
         EXPECT_NEAR(albedo.Fc, row[3], 1e-6) << row[0] << " " << row[1];
     }
-    EXPECT_NEAR(dfg_ggx(1, 1, dfg_rule(1e-8)).E, 1 - std::log(2.0), 1e-13);
+    EXPECT_NEAR(dfg_ggx(1, 1, DfgMethod::quadrature(1e-8)).E, 1 - std::log(2.0), 1e-13);
 }
 
 /// Domain of the promised errors: the corners and random points of [0, 1] x [1e-8, 1].
@@ -80,15 +80,15 @@ std::vector<std::pair<double, std::vector<double>>> domain() {
 }
 
 TEST(Dfg, EveryRuleKeepsItsPromiseOverTheWholeDomain) {
-    const DfgRule truth{gauss_legendre(120), gauss_legendre(200), 0};
+    const DfgMethod truth{DfgEstimator::quadrature, {gauss_legendre(120), gauss_legendre(200), 0}, 0, 0};
     const auto rows = domain();
     for (const double promised : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
-        const DfgRule rule = dfg_rule(promised);
-        EXPECT_EQ(rule.max_error, promised);
+        const DfgMethod method = DfgMethod::quadrature(promised);
+        EXPECT_EQ(method.rule.max_error, promised);
         double worst = 0;
         for (const auto& [alpha, views] : rows) {
             std::vector<double> E(views.size()), Fc(views.size()), true_E(views.size()), true_Fc(views.size());
-            dfg_ggx_row(views, alpha, rule, E, Fc);
+            dfg_ggx_row(views, alpha, method, E, Fc);
             dfg_ggx_row(views, alpha, truth, true_E, true_Fc);
             for (std::size_t i = 0; i < views.size(); ++i)
                 worst = std::max({worst, std::abs(E[i] - true_E[i]), std::abs(Fc[i] - true_Fc[i])});
@@ -98,7 +98,7 @@ TEST(Dfg, EveryRuleKeepsItsPromiseOverTheWholeDomain) {
 }
 
 TEST(Dfg, HoldsItsBoundsAndLimits) {
-    const DfgRule rule = dfg_rule(1e-6);
+    const DfgMethod rule = DfgMethod::quadrature(1e-6);
     for (const auto& [alpha, views] : domain())
         for (const double NoV : views) {
             const DirectionalAlbedo albedo = dfg_ggx(NoV, alpha, rule);
@@ -118,7 +118,7 @@ TEST(Dfg, RowIsBitForBitTheSameAsSingleViews) {
     std::vector<double> views;
     for (int i = 0; i < 37; ++i) views.push_back(random_unit(9, i));
     std::vector<double> E(views.size()), Fc(views.size());
-    const DfgRule rule = dfg_rule(1e-4);
+    const DfgMethod rule = DfgMethod::quadrature(1e-4);
     dfg_ggx_row(views, 0.2, rule, E, Fc);
     for (std::size_t i = 0; i < views.size(); ++i) {
         const DirectionalAlbedo single = dfg_ggx(views[i], 0.2, rule);
@@ -130,10 +130,10 @@ TEST(Dfg, RowIsBitForBitTheSameAsSingleViews) {
 TEST(Dfg, MonteCarloAgreesWithinFourSigma) {
     constexpr int kRuns = 64, kSamples = 1000;
     for (const auto& [alpha, NoV] : {std::pair{.1, .1}, {.1, .5}, {.25, .1}, {.5, .5}, {1., .1}, {1., .5}}) {
-        const DirectionalAlbedo truth = dfg_ggx(NoV, alpha, dfg_rule(1e-8));
+        const DirectionalAlbedo truth = dfg_ggx(NoV, alpha, DfgMethod::quadrature(1e-8));
         double sum = 0, squares = 0, sum_fc = 0, squares_fc = 0;
         for (int run = 0; run < kRuns; ++run) {
-            const DirectionalAlbedo estimate = dfg_ggx_importance_sampled(NoV, alpha, kSamples, random_bits(5, run));
+            const DirectionalAlbedo estimate = dfg_ggx(NoV, alpha, DfgMethod::importance_sampling(kSamples, random_bits(5, run)));
             sum += estimate.E;
             squares += estimate.E * estimate.E;
             sum_fc += estimate.Fc;

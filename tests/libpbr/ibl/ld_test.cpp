@@ -53,10 +53,11 @@ std::vector<double> exact(const PatchBlocks& blocks, double alpha, const std::ve
 
 std::vector<float> sampled(const CubePyramid& pyramid, LdEstimator estimator, double alpha, int count, int size, double bias = 1,
                            std::uint64_t seed = 0) {
-    const LdSamples samples = make_ld_samples(estimator, alpha, count, pyramid.size(), bias);
-    std::vector<float> rgb(static_cast<std::size_t>(size) * size * 18);
-    for (int row = 0; row < 6 * size; ++row)
-        ld_sampled_row(pyramid, samples, seed, size, row / size, row % size, {&rgb[static_cast<std::size_t>(row) * size * 3], static_cast<std::size_t>(size) * 3});
+    const LdIntegrator integrator({estimator, count, bias, seed}, alpha, nullptr, &pyramid);
+    std::vector<CubeTexel> texels;
+    for (int i = 0; i < 6 * size * size; ++i) texels.push_back({i / (size * size), i % size, i / size % size});
+    std::vector<float> rgb(texels.size() * 3);
+    EXPECT_EQ(integrator.integrate(size, texels, rgb), texels.size() * static_cast<std::uint64_t>(count));
     return rgb;
 }
 
@@ -174,6 +175,19 @@ TEST(Ld, EstimatorsApproachTheExactSumDownToTheirFloor) {
     }
 }
 
+TEST(Ld, IntegratorGivesTheExactSumAsFloats) {
+    const std::vector<float> picture = lamp_room(64, 32, 20);
+    const PatchBlocks blocks(EquirectView{picture.data(), 64, 32});
+    const LdIntegrator integrator({}, 0.36, &blocks, nullptr);
+    const std::vector<CubeTexel> texels{{0, 1, 2}, {3, 0, 3}, {5, 2, 2}};
+    std::vector<float> rgb(9);
+    EXPECT_GT(integrator.integrate(4, texels, rgb), 0u);
+    std::vector<glm::dvec3> directions;
+    for (const CubeTexel& texel : texels) directions.push_back(cubemap_texel_direction(texel, 4));
+    const std::vector<double> truth = exact(blocks, 0.36, directions);
+    for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(rgb[i], static_cast<float>(truth[i]));
+}
+
 TEST(Ld, FilteredSamplingIsLinear) {
     const std::vector<float> a = lamp_room(64, 32, 10), b = lamp_room(64, 32, 0);
     std::vector<float> sum(a.size());
@@ -219,10 +233,12 @@ TEST(Ld, KernelAgreesWithItsScalarTwin) {
     const std::vector<float> picture = lamp_room(64, 32, 20);
     const CubePyramid pyramid(cube_of({picture.data(), 64, 32}, 32), 32);
     const LdSamples samples = make_ld_samples(LdEstimator::filtered_importance_sampling, 0.3, 1, 32, 1);
-    std::vector<float> row(8 * 3);
     for (int face = 0; face < 6; ++face)
         for (int y = 0; y < 8; ++y) {
-            ld_sampled_row(pyramid, samples, 0, 8, face, y, row);
+            std::vector<CubeTexel> texels;
+            for (int x = 0; x < 8; ++x) texels.push_back({face, x, y});
+            std::vector<float> row(8 * 3);
+            ld_sampled(pyramid, samples, 0, 8, texels, row);
             for (int x = 0; x < 8; ++x) {
                 // One sample lies at the median of the lobe; averaged over turns it isn't known here, so bound it by the
                 // scalar lookups around the normal instead of repeating the frame's construction.

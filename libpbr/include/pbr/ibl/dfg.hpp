@@ -21,12 +21,6 @@ struct DirectionalAlbedo {
     double Fc;
 };
 
-/// How E and Fc are had.
-enum class DfgEstimator {
-    quadrature,           ///< deterministic, error as DfgRule states
-    importance_sampling,  ///< Monte Carlo over visible normals
-};
-
 /// Nodes of the product quadrature: over the azimuth of the half vector, and radially up to the horizon.
 struct DfgRule {
     QuadratureRule azimuth;
@@ -40,15 +34,33 @@ struct DfgRule {
 /// The cheapest rule whose error is at most `max_error`; below 1e-8 the one of 1e-8. max_error > 0.
 DfgRule dfg_rule(double max_error);
 
-/// E and Fc by quadrature. NoV in [0, 1], alpha in [0, 1]. Error rule.max_error.
-DirectionalAlbedo dfg_ggx(double NoV, double alpha, const DfgRule& rule);
+enum class DfgEstimator {
+    quadrature,           ///< deterministic, error as its rule states
+    importance_sampling,  ///< Monte Carlo over visible normals, as other renderers have it
+};
 
-/// E and Fc of many views at one alpha, vectorised: bit for bit what dfg_ggx gives. The spans have equal sizes.
-void dfg_ggx_row(std::span<const double> NoV, double alpha, const DfgRule& rule, std::span<double> E,
+/// How E and Fc are had.
+struct DfgMethod {
+    DfgEstimator estimator = DfgEstimator::quadrature;
+    DfgRule rule{};          ///< of quadrature
+    int samples = 0;         ///< of importance sampling
+    std::uint64_t seed = 0;  ///< of importance sampling; every (NoV, alpha) hashes it anew
+
+    static DfgMethod quadrature(double max_error) { return {DfgEstimator::quadrature, dfg_rule(max_error), 0, 0}; }
+    static DfgMethod importance_sampling(int samples, std::uint64_t seed) {
+        return {DfgEstimator::importance_sampling, {}, samples, seed};
+    }
+    /// Evaluations of the integrand a table entry costs.
+    int evaluations() const { return estimator == DfgEstimator::quadrature ? rule.evaluations() : samples; }
+};
+
+/// E and Fc of many views at one alpha. NoV in [0, 1], alpha in [0, 1]; the spans have equal sizes.
+/// Quadrature is vectorised over views, each view's bits the same in any row; its error is method.rule.max_error.
+/// Importance sampling takes the R2 sequence: its error falls like samples^-1 while smooth, samples^-1/2 at worst.
+void dfg_ggx_row(std::span<const double> NoV, double alpha, const DfgMethod& method, std::span<double> E,
                  std::span<double> Fc);
 
-/// E and Fc by Monte Carlo over visible normals with `samples` points of the R2 sequence, shifted by `seed`; the estimate
-/// of every other renderer. Error falls like samples^-1 or faster while smooth, samples^-1/2 at worst.
-DirectionalAlbedo dfg_ggx_importance_sampled(double NoV, double alpha, int samples, std::uint64_t seed);
+/// E and Fc of one view.
+DirectionalAlbedo dfg_ggx(double NoV, double alpha, const DfgMethod& method);
 
 }  // namespace pbr

@@ -10,10 +10,10 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/ibl/patches.hpp"
 
@@ -61,11 +61,11 @@ struct LdSamples {
 /// for noise (small). importance_sampling leaves lod at 0.
 LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int base_size, double level_bias);
 
-/// Row y of a face of a level of `size`, by sampling: the unweighted mean over samples (their density is the whole lobe,
-/// NoL included, so a constant environment has no variance). `rgb_out` holds size * 3 floats. Bits do not depend on the
-/// vector width. Every texel turns the samples by a hash of (seed, size, face, x, y).
-void ld_sampled_row(const CubePyramid& pyramid, const LdSamples& samples, std::uint64_t seed, int size, int face, int y,
-                    std::span<float> rgb_out);
+/// Texels of a level of `size` by sampling: the unweighted mean over samples (their density is the whole lobe, NoL included,
+/// so a constant environment has no variance). `rgb_out` holds 3 floats a texel. Bits do not depend on the vector width, nor
+/// on which texels are asked for together: each turns the samples by a hash of (seed, size, texel).
+void ld_sampled(const CubePyramid& pyramid, const LdSamples& samples, std::uint64_t seed, int size,
+                std::span<const CubeTexel> texels, std::span<float> rgb_out);
 
 /// Exact prefiltered radiance in `directions` (unit vectors, world) for alpha in (0, 1]: `rgb_out` holds 3 doubles each.
 ///
@@ -76,5 +76,31 @@ void ld_sampled_row(const CubePyramid& pyramid, const LdSamples& samples, std::u
 /// to `evaluations`.
 double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations);
+
+/// How LD is had.
+struct LdMethod {
+    LdEstimator estimator = LdEstimator::exact;
+    int samples = 0;         ///< a texel; of the sampling estimators, as are those below
+    double level_bias = 1;   ///< K of make_ld_samples
+    std::uint64_t seed = 0;
+};
+
+/// LD at one alpha, by any estimator. Keeps references: sources must outlive it.
+class LdIntegrator {
+  public:
+    /// `source` is read by the exact estimator, `pyramid` by the others; the other one may be null. alpha in (0, 1].
+    LdIntegrator(const LdMethod& method, double alpha, const PatchBlocks* source, const CubePyramid* pyramid);
+
+    /// Texels of a level of `size`; `rgb_out` holds 3 floats each. Texels that lie together cost the exact estimator
+    /// least. Returns the kernel evaluations or samples it took. Thread-safe.
+    std::uint64_t integrate(int size, std::span<const CubeTexel> texels, std::span<float> rgb_out) const;
+
+  private:
+    LdMethod method_;
+    double alpha_;
+    const PatchBlocks* source_;
+    const CubePyramid* pyramid_;
+    LdSamples samples_;
+};
 
 }  // namespace pbr
