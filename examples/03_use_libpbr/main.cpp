@@ -9,7 +9,7 @@ int main() {
     const double NoV = 0.5, perceptual_roughness = 0.5;
     const double alpha = pbr::alpha_from_perceptual_roughness(perceptual_roughness);
 
-    const pbr::DirectionalAlbedo albedo = pbr::dfg_ggx(NoV, alpha, pbr::dfg_rule(1e-6));
+    const pbr::DirectionalAlbedo albedo = pbr::dfg_ggx(NoV, alpha, pbr::DfgMethod::quadrature(1e-6));
     std::printf("NoV %g, perceptual roughness %g: scale %.6f, bias %.6f\n", NoV, perceptual_roughness,
                 albedo.E - albedo.Fc, albedo.Fc);
 
