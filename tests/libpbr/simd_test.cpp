@@ -1,0 +1,78 @@
+// Kernels give the same bits at every vector width that the machine has, the scalar one included.
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <vector>
+
+#include "pbr/ibl/dfg.hpp"
+#include "pbr/ibl/ld.hpp"
+#include "pbr/numerics/sequence.hpp"
+
+namespace pbr {
+namespace {
+
+/// Restricts dispatch to one target while it lives.
+class OneTarget {
+  public:
+    explicit OneTarget(std::int64_t target) { force(target); }
+    ~OneTarget() { force(0); }
+
+  private:
+    static void force(std::int64_t target) {
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    }
+};
+
+struct Results {
+    std::vector<double> dfg, exact;
+    std::vector<float> sampled;
+    bool operator==(const Results&) const = default;
+};
+
+Results run_kernels() {
+    Results results;
+    std::vector<double> NoV, E(21), Fc(21);
+    for (int i = 0; i < 21; ++i) NoV.push_back(i / 20.0);
+    for (const double alpha : {1e-4, 0.1, 1.0}) {
+        dfg_ggx_row(NoV, alpha, DfgMethod::quadrature(1e-4), E, Fc);
+        results.dfg.insert(results.dfg.end(), E.begin(), E.end());
+        results.dfg.insert(results.dfg.end(), Fc.begin(), Fc.end());
+    }
+    std::vector<float> cube(std::size_t{16} * 16 * 18);
+    for (std::size_t i = 0; i < cube.size(); ++i) cube[i] = static_cast<float>(std::pow(random_unit(1, i), 6));
+    std::vector<CubeTexel> texels;
+    std::vector<glm::dvec3> directions;
+    for (int i = 0; i < 50; ++i) {
+        texels.push_back({i % 6, i % 8, i / 8});
+        directions.push_back(cubemap_texel_direction(texels.back(), 8));
+    }
+    const CubePyramid pyramid(cube, 16);
+    results.sampled.resize(150);
+    for (const int count : {1, 37, 300})  // not multiples of any width
+        ld_sampled(pyramid, make_ld_samples(LdEstimator::filtered_importance_sampling, 0.2, count, 16, 1), 3, 8, texels,
+                   results.sampled);
+    results.exact.resize(150);
+    std::uint64_t evaluations = 0;
+    ld_exact(PatchBlocks(CubeView{cube.data(), 16}), 0.2, directions, results.exact, evaluations);
+    return results;
+}
+
+TEST(Simd, EveryVectorWidthGivesTheSameBits) {
+    const Results widest = run_kernels();
+    int compared = 0;
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        const OneTarget only(target);
+        const Results results = run_kernels();
+        EXPECT_EQ(results.dfg, widest.dfg) << hwy::TargetName(target);
+        EXPECT_EQ(results.sampled, widest.sampled) << hwy::TargetName(target);
+        EXPECT_EQ(results.exact, widest.exact) << hwy::TargetName(target);
+        ++compared;
+    }
+    EXPECT_GE(compared, 2);  // else no second width was there to compare
+}
+
+}  // namespace
+}  // namespace pbr
