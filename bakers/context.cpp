@@ -1,20 +1,23 @@
 #include "bakers/context.hpp"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <utility>
 
 namespace pbrbake {
+namespace {
 
-struct Context::Arena {
-    explicit Arena(int threads)
-        : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
-    tbb::global_control limit;  // else oneTBB caps an arena at the machine's threads, and says so on stderr
-    tbb::task_arena arena;
-};
+// oneTBB orders the caller's writes before the bodies and the bodies before the caller's return, but ThreadSanitizer can't
+// see into the library. Under it, and only there, the same order is spelt out in atomics that it does see.
+#if defined(__SANITIZE_THREAD__)
+std::atomic<int> visible_order{0};
+void publish() { visible_order.fetch_add(1, std::memory_order_release); }
+void observe() { visible_order.load(std::memory_order_acquire); }
+#else
+void publish() {}
+void observe() {}
+#endif
+
+}  // namespace
 
 Context::Context(int threads, Accuracy accuracy, ProgressSink progress, const std::atomic<bool>* cancel)
     : threads_(std::max(1, threads)), accuracy_(std::move(accuracy)), sink_(std::move(progress)), cancel_(cancel) {}
@@ -37,8 +40,15 @@ void Context::parallel_for(std::int64_t count, std::int64_t grain,
         for (std::int64_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
         return;
     }
-    if (!arena_) arena_ = std::make_unique<Arena>(threads_);
-    arena_->arena.execute([&] { tbb::parallel_for(std::int64_t{0}, chunks, run_chunk); });
+    if (!workers_) workers_ = std::make_unique<Workers>(threads_);
+    const std::function<void(std::int64_t)> task = [&](std::int64_t chunk) {
+        observe();
+        run_chunk(chunk);
+        publish();
+    };
+    publish();
+    workers_->for_each(chunks, task);
+    observe();
 }
 
 void Context::count(std::string_view effect, std::uint64_t evaluations) {

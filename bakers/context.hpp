@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "bakers/workers.hpp"
+
 namespace pbrbake {
 
 /// What was asked for: a name that each baker explains in its README, or a largest error.
@@ -56,13 +58,12 @@ class Context {
     void check_cancelled() const;
 
   private:
-    struct Arena;
     int threads_;
     Accuracy accuracy_;
     bool certify_fully_ = false;
     ProgressSink sink_;
     const std::atomic<bool>* cancel_;
-    std::unique_ptr<Arena> arena_;
+    std::unique_ptr<Workers> workers_;  ///< made when first needed
     mutable std::mutex mutex_;
     std::map<std::string, std::uint64_t> counts_;
     double expected_ = 0, done_ = 0;
