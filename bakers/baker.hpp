@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,9 @@ namespace pbrbake {
 
 /// A JSON value in memory. Only job, parse and run turn it from or into text.
 using Json = nlohmann::ordered_json;
+
+/// What a path starts with that names a baker's own source instead of a file.
+inline constexpr std::string_view kBuiltinScheme = "builtin:";
 
 /// A file a bake will read: the Params field that names it, and how to decode it.
 struct Read {

@@ -1,6 +1,7 @@
 #include "bakers/registry.hpp"
 
 #include <array>
+#include <utility>
 
 #include "bakers/dfg/dfg.hpp"
 #include "bakers/params.hpp"
@@ -10,29 +11,32 @@ namespace pbrbake {
 namespace {
 
 template <class Params>
-Baker make_baker(std::string_view kind, int algorithm_version, std::vector<Mistake> (*check)(const Params&),
+Baker make_baker(std::string_view kind, int algorithm_version, std::vector<Mistake> (*check)(const Params&, const std::string& format),
                  std::vector<Read> (*reads)(const Params&), Product (*bake)(const Params&, const Inputs&, Context&),
                  Certificate (*certify)(const Params&, const Inputs&, const Product&, Context&)) {
     return {kind,
             algorithm_version,
             field_names<Params>(),
-            [=](const Json& json) { return check(read_params<Params>(json)); },
+            [=](const Json& json) { return check(read_params<Params>(json), json.at("format").get<std::string>()); },
             [=](const Json& json) { return reads(read_params<Params>(json)); },
             [=](const Json& json, const Inputs& inputs, Context& context) {
                 return bake(read_params<Params>(json), inputs, context);
             },
             [=](const Json& json, const Inputs& inputs, const Product& product, Context& context) {
                 return certify(read_params<Params>(json), inputs, product, context);
-            }};
+            },
+            {}};
 }
 
 }  // namespace
 
 std::span<const Baker> bakers() {
-    static const std::array list{
-        make_baker("dfg", dfg::kAlgorithmVersion, dfg::check, dfg::reads, dfg::bake, dfg::certify),
-        make_baker("probe", probe::kAlgorithmVersion, probe::check, probe::reads, probe::bake, probe::certify),
-    };
+    static const std::array list = [] {
+        Baker dfg = make_baker("dfg", dfg::kAlgorithmVersion, dfg::check, dfg::reads, dfg::bake, dfg::certify);
+        Baker probe = make_baker("probe", probe::kAlgorithmVersion, probe::check, probe::reads, probe::bake, probe::certify);
+        probe.builtin = probe::builtin_environment;
+        return std::array{std::move(dfg), std::move(probe)};
+    }();
     return list;
 }
 

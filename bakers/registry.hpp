@@ -21,6 +21,7 @@ struct Baker {
     std::function<std::vector<Read>(const Json& bake)> reads;
     std::function<Product(const Json& bake, const Inputs&, Context&)> run;
     std::function<Certificate(const Json& bake, const Inputs&, const Product&, Context&)> certify;
+    std::function<SourceImage(const std::string& name)> builtin = {};  ///< a source of the baker's own, "builtin:NAME"
 };
 
 /// All bakers, in the order of their help texts.

@@ -84,7 +84,7 @@ ExitCode execute(std::span<const job::Job> jobs, const Given& given, std::vector
         std::printf("%s", job::to_text(run::report_json(report)).c_str());
     else if (options.dry_run)
         print_plan(report);
-    return options.dry_run ? report.code : write_extras(report, given);
+    return write_extras(report, given);
 }
 
 }  // namespace pbrbake::cli

@@ -6,7 +6,7 @@
 
 namespace pbrbake::dfg {
 
-/// NoV of column x, and alpha of row y.
+/// NoV of column x, and perceptual roughness of row y.
 double nov_of_column(const DfgParams& params, int x);
 double perceptual_roughness_of_row(const DfgParams& params, int y);
 

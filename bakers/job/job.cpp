@@ -13,8 +13,6 @@ namespace pbrbake::job {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kBuiltin = "builtin:";
-
 std::string all_lines(const std::vector<Mistake>& mistakes) {
     std::vector<std::string> lines;
     for (const Mistake& mistake : mistakes) lines.push_back(mistake.pointer + ": " + mistake.message);
@@ -119,7 +117,7 @@ class Reading {
     }
 
     void read_source(const Read& read, const std::string& at, Bake& bake) {
-        if (read.path.starts_with(kBuiltin)) {
+        if (read.path.starts_with(kBuiltinScheme)) {
             bake.sources.push_back({read, {}});
             return;
         }
@@ -162,6 +160,33 @@ std::string place_name(const OneShot& command, const std::string& pointer) {
     return best;
 }
 
+/// A product, record or manifest must not replace a file that the job reads, nor the job itself.
+std::vector<Mistake> overwrites(const Job& job) {
+    std::map<fs::path, std::string> kept;  // what stands at a path that must stay
+    const auto keep = [&](const fs::path& path, std::string what) {
+        if (!path.empty()) kept.emplace(fs::weakly_canonical(path), std::move(what));
+    };
+    keep(job.file, "the job file");
+    for (const Bake& bake : job.bakes)
+        for (const Source& source : bake.sources) keep(source.file, "the source of bake \"" + bake.name + "\"");
+
+    std::vector<Mistake> mistakes;
+    const auto write = [&](const std::string& file, const std::string& pointer) {
+        const auto found = kept.find(fs::weakly_canonical(job.output / file));
+        if (found != kept.end())
+            mistakes.push_back({pointer, "would write " + file + " over " + found->second +
+                                             "; choose another name, format or output folder"});
+    };
+    for (std::size_t i = 0; i < job.bakes.size(); ++i) {
+        const std::string& file = job.bakes[i].file;
+        for (const std::string& written : {file, file + ".json"})
+            if (written == file || job.record == Record::sidecar)
+                write(written, "/bakes/" + std::to_string(i) + "/name");
+    }
+    if (job.record == Record::manifest) write("manifest.json", "/output");
+    return mistakes;
+}
+
 }  // namespace
 
 JobError::JobError(ExitCode code, std::vector<Mistake> mistakes)
@@ -175,8 +200,9 @@ Job load(const fs::path& file, const std::vector<fs::path>& roots) {
     Reading reading(std::move(document), Fence(file.parent_path(), all_roots));
     Job job = reading.read({});
     job.file = file;
-    if (reading.mistakes().empty()) return job;
     std::vector<Mistake> mistakes = reading.mistakes();
+    if (mistakes.empty()) mistakes = overwrites(job);
+    if (mistakes.empty()) return job;
     for (Mistake& mistake : mistakes) mistake.pointer = file.string() + "#" + mistake.pointer;
     throw JobError(ExitCode::invalid_job, std::move(mistakes));
 }
@@ -186,8 +212,9 @@ Job from_document(Json document, const OneShot& command) {
     Job job = reading.read(command.output);
     job.output = command.output.parent_path();
     job.record = Record::sidecar;
-    if (reading.mistakes().empty()) return job;
     std::vector<Mistake> mistakes = reading.mistakes();
+    if (mistakes.empty()) mistakes = overwrites(job);
+    if (mistakes.empty()) return job;
     for (Mistake& mistake : mistakes) mistake.pointer = place_name(command, mistake.pointer);
     throw JobError(ExitCode::usage, std::move(mistakes));
 }

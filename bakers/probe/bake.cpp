@@ -72,6 +72,7 @@ pbr::CubePyramid make_pyramid(const ProbeParams& params, const Environment& envi
     const int base = pyramid_size(params, environment);
     if (base == params.size && base <= environment.equivalent_size()) return {level_0.texels, base};
     Level resampled;
+    context.expect(6.0 * base * base);
     fill_rows(context, base, resampled, [&](int face, int y, std::span<float> rgb) {
         environment.resample_area_row(base, face, y, rgb);
     });
@@ -125,13 +126,17 @@ Json level_properties(const ProbeParams& params) {
 
 }  // namespace
 
-std::vector<Mistake> check(const ProbeParams& params) {
+std::vector<Mistake> check(const ProbeParams& params, const std::string& format) {
     std::vector<Mistake> mistakes;
     const int full = full_chain(params.size);
     if (params.levels > full)
         mistakes.push_back({"/levels", "found " + std::to_string(params.levels) + "; allowed: at most " +
                                            std::to_string(full) + " for size " + std::to_string(params.size)});
     const int levels = std::min(level_count(params), full);
+    if (format == "exr" && params.size % (1 << (levels - 1)) != 0)  // OpenEXR halves the six faces as one picture
+        mistakes.push_back({"/size", "found " + std::to_string(params.size) + "; allowed: multiples of " +
+                                         std::to_string(1 << (levels - 1)) + " for an EXR cube map of " +
+                                         std::to_string(levels) + " levels; or take fewer levels, or ktx2"});
     if (params.samples.size() > 1 && params.samples.size() != static_cast<std::size_t>(levels))
         mistakes.push_back({"/samples", "found " + std::to_string(params.samples.size()) +
                                             " counts; allowed: one for all levels, or one a level (" +
@@ -145,8 +150,8 @@ Product bake(const ProbeParams& params, const Inputs& inputs, Context& context) 
     const SourceImage& source = inputs.at("source");
     if (source.image.faces == 6 && !permutes_cube(params.rotate_deg))
         throw Error(ExitCode::invalid_job, params.source,
-                    "is a cube map, which turns only by multiples of 90 degrees; found rotate_deg " +
-                        std::to_string(params.rotate_deg));
+                    "is a cube map, and rotate_deg is " + std::to_string(params.rotate_deg) +
+                        "; allowed for cube maps: multiples of 90, or give the environment as an equirect");
     const Environment environment(params, source);
     Image image;
     image.channels = {"R", "G", "B"};

@@ -45,7 +45,7 @@ glm::dvec3 clear_sky(const glm::dvec3& d) {
 void add_sun(Level& level) {
     constexpr int kGrid = 16;
     const glm::dvec3 sun = sun_direction();
-    const double radius2 = 4 * std::pow(std::sin(kSunHalfAngle / 2), 2);  // squared chord of the disk's edge
+    const double half = pbr::sin_cos_pi(kSunHalfAngle / 2 / std::numbers::pi).sin, radius2 = 4 * half * half;  // squared chord of the disk's edge
     std::vector<double> covered(level.texels.size() / 3, 0.0);
     pbr::CompensatedSum total;
     for (int y = 0; y < kHeight; ++y)
@@ -61,11 +61,12 @@ void add_sun(Level& level) {
             total += covered[static_cast<std::size_t>(y) * kWidth + x];
         }
     // E of a small source facing the plane is the integral of L cos over its disk: pi sin^2(half angle) L.
-    const double flux = kSunIlluminance * (2 - 2 * std::cos(kSunHalfAngle)) / std::pow(std::sin(kSunHalfAngle), 2);
+    // and the flux of the disk is L times its solid angle, 4 pi sin^2(half angle / 2).
+    const double sine = pbr::sin_cos_pi(kSunHalfAngle / std::numbers::pi).sin;
+    const double flux = kSunIlluminance * 4 * half * half / (sine * sine);
     const glm::dvec3 colour = light(flux, {1.08, 1.0, 0.88});
     for (int y = 0; y < kHeight; ++y) {
-        const double texel = 2 * std::numbers::pi / kWidth * 2 * pbr::sin_cos_pi((y + 0.5) / kHeight).sin *
-                             pbr::sin_cos_pi(0.5 / kHeight).sin;  // its solid angle
+        const double texel = pbr::equirect_texel_solid_angle(kWidth, kHeight, y);
         for (int x = 0; x < kWidth; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * kWidth + x;
             for (int c = 0; c < 3 && covered[i] > 0; ++c)

@@ -25,6 +25,9 @@ class Environment {
 
     pbr::PatchBlocks blocks() const;
 
+    /// Radiance times solid angle over all texels and channels.
+    double energy() const;
+
     /// One row of a face of a cube of `size`: the mean over each texel where texels grow, bilinear where they shrink.
     void resample_row(int size, int face, int y, std::span<float> rgb_out) const;
 

@@ -7,7 +7,7 @@ namespace pbrbake::probe {
 
 inline constexpr int kAlgorithmVersion = 1;
 
-std::vector<Mistake> check(const ProbeParams& params);
+std::vector<Mistake> check(const ProbeParams& params, const std::string& format);
 std::vector<Read> reads(const ProbeParams& params);
 Product bake(const ProbeParams& params, const Inputs& inputs, Context& context);
 Certificate certify(const ProbeParams& params, const Inputs& inputs, const Product& product, Context& context);

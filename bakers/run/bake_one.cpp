@@ -5,15 +5,12 @@
 
 #include "bakers/io/io.hpp"
 #include "bakers/job/json_text.hpp"
-#include "bakers/probe/probe.hpp"
 #include "bakers/run/atomic_file.hpp"
 #include "bakers/run/entry.hpp"
 
 namespace pbrbake::run {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::string_view kBuiltin = "builtin:";
 
 std::string number_text(double number) {
     std::ostringstream stream;
@@ -92,7 +89,7 @@ class BakeRun {
         if (job_.working_space != "lin_rec709")
             throw Error(ExitCode::unreadable_input, path,
                         "is defined in lin_rec709; bake it with that working_space, or take a file");
-        return probe::builtin_environment(path.substr(kBuiltin.size()));
+        return bake_.baker->builtin(path.substr(kBuiltinScheme.size()));
     }
 
     SourceImage read(const job::Source& source) const {

@@ -30,9 +30,12 @@ bool still_true(const job::Job& job, const job::Bake& bake, const Json& entry) {
             entry.at("working_space") != job.working_space || entry.at("tool") != tool_version() ||
             entry.at("algorithm_version") != bake.baker->algorithm_version)
             return false;
-        for (const Json& output : entry.at("outputs"))
-            if (io::hash_file(job.output / output.at("path").get<std::string>()) != output.at("xxh3"))
-                return false;
+        for (const Json& output : entry.at("outputs")) {
+            const fs::path name = output.at("path").get<std::string>();
+            const fs::path file = job.output / name;
+            if (name != name.filename() || !fs::is_regular_file(file)) return false;  // not a record of ours
+            if (io::hash_file(file) != output.at("xxh3")) return false;
+        }
         return true;
     } catch (const std::exception&) {
         return false;

@@ -294,7 +294,7 @@ std::string DemoPage::level_table(const Environment& environment) const {
                                        : number(relative_rmse(environment.probes[i].baked,
                                                               environment.best().baked, level)) +
                                              "<br><small>measured</small>");
-        const Json* energy = figure_at(*environment.best().report, "energy_against_level_0", level);
+        const Json* energy = figure_at(*environment.best().report, "energy_error", level);
         cells.push_back(energy ? percent((*energy)["value"].get<double>()) : "–");
         table.add(cells);
     }

@@ -50,10 +50,11 @@ Results run_kernels() {
         directions.push_back(cubemap_texel_direction(texels.back(), 8));
     }
     const CubePyramid pyramid(cube, 16);
-    results.sampled.resize(150);
-    for (const int count : {1, 37, 300})  // not multiples of any width
-        ld_sampled(pyramid, make_ld_samples(LdEstimator::filtered_importance_sampling, 0.2, count, 16, 1), 3, 8, texels,
-                   results.sampled);
+    for (const int count : {1, 37, 300}) {  // not multiples of any width
+        std::vector<float> rgb(150);
+        ld_sampled(pyramid, make_ld_samples(LdEstimator::filtered_importance_sampling, 0.2, count, 16, 1), 3, 8, texels, rgb);
+        results.sampled.insert(results.sampled.end(), rgb.begin(), rgb.end());
+    }
     results.exact.resize(150);
     std::uint64_t evaluations = 0;
     ld_exact(PatchBlocks(CubeView{cube.data(), 16}), 0.2, directions, results.exact, evaluations);

@@ -165,6 +165,10 @@ glm::dvec2 equirect_point(const glm::dvec3& d) {
     return {u >= 1 ? u - 1 : u, atan2_exact(std::sqrt(d.x * d.x + d.z * d.z), d.y) / kPi};
 }
 
+double equirect_texel_solid_angle(int width, int height, int y) {
+    return 4 * kPi / width * sin_cos_pi((y + 0.5) / height).sin * sin_cos_pi(0.5 / height).sin;
+}
+
 void resample_area(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out) {
     const RowTable rows(source.height);
     for (int x = 0; x < size; ++x) {

@@ -13,7 +13,7 @@
 namespace pbr {
 
 CubePyramid::CubePyramid(std::span<const float> rgb, int size) : size_(size) {
-    assert(size > 0 && (size & (size - 1)) == 0 && rgb.size() == static_cast<std::size_t>(size) * size * 18);
+    assert(size > 0 && size <= 4096 && (size & (size - 1)) == 0 && rgb.size() == static_cast<std::size_t>(size) * size * 18);
     std::size_t total = 0;
     for (int n = size; n >= 1; n /= 2) {
         offsets_.push_back(static_cast<std::int32_t>(total));
@@ -66,7 +66,8 @@ void CubePyramid::fill_border(int level) {
             for (const int x : {-1, n}) {  // the three texels that meet at this corner of the cube
                 const int ix = std::clamp(x, 0, n - 1), iy = std::clamp(y, 0, n - 1);
                 for (int c = 0; c < 3; ++c)
-                    at(f, x, y)[c] = (at(f, ix, iy)[c] + at(f, x, iy)[c] + at(f, ix, y)[c]) / 3;
+                    at(f, x, y)[c] = static_cast<float>(
+                        (static_cast<double>(at(f, ix, iy)[c]) + at(f, x, iy)[c] + at(f, ix, y)[c]) / 3);
             }
     }
 }
@@ -106,7 +107,7 @@ LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int ba
         samples.x.push_back(static_cast<float>(sine * azimuth.cos));
         samples.y.push_back(static_cast<float>(sine * azimuth.sin));
         samples.z.push_back(static_cast<float>(1 - one_minus_mu));
-        double lod = 0;
+        double lod = -2;  // plain sampling: below 0 even with the kernel's correction of at most 3/4 log2(3)
         if (estimator == LdEstimator::filtered_importance_sampling) {
             const double sample_angle = 1 / (count * std::max(kernel.value(one_minus_mu), 1e-30));
             const double texel_angle = 4.0 / (static_cast<double>(base_size) * base_size);

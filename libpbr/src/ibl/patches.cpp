@@ -17,6 +17,11 @@ constexpr int kBlockSide = 8;
 
 }  // namespace
 
+double angle_of_chord(double chord) {
+    const double sine = std::min(1.0, chord / 2);  // of half the angle
+    return 2 * atan2_exact(sine, std::sqrt((1 - sine) * (1 + sine)));
+}
+
 void PatchPoints::resize(std::size_t count) {
     for (std::vector<float>* array : {&x, &y, &z, &weight, &r, &g, &b}) array->resize(count);
 }
@@ -52,7 +57,7 @@ void PatchBlocks::add_blocks(int face, int width, int height) {
                     const glm::dvec3 d = direction(face, x + i, y + j);
                     farthest = std::max(farthest, glm::length(d - block.cone.axis));
                 }
-            block.cone.half_angle = 2 * std::asin(std::min(1.0, farthest / 2)) + texel_angle_ / 2;
+            block.cone.half_angle = angle_of_chord(farthest) + texel_angle_ / 2;
             blocks_.push_back(block);
         }
 }
@@ -78,13 +83,11 @@ void PatchBlocks::equirect_points(const Block& block, const QuadratureRule& rule
     for (std::size_t i = 0; i < colatitudes.size(); ++i)
         colatitudes[i] = sin_cos_pi((block.y + static_cast<int>(i / order) + rule.nodes[i % order]) / equirect_.height);
     const glm::dmat3 to_world = glm::transpose(equirect_.world_to_source);  // it is orthogonal
-    const double half_row = sin_cos_pi(0.5 / equirect_.height).sin;
 
     std::size_t at = 0;
     for (int y = 0; y < block.height; ++y) {
-        // Solid angle of a texel (cos a - cos b without cancellation), and the sum its points' sines have.
-        const double exact = 2 * std::numbers::pi / equirect_.width * 2 *
-                             sin_cos_pi((block.y + y + 0.5) / equirect_.height).sin * half_row;
+        // Solid angle of a texel, and the sum its points' sines have.
+        const double exact = equirect_texel_solid_angle(equirect_.width, equirect_.height, block.y + y);
         double sines = 0;
         for (std::size_t b = 0; b < order; ++b) sines += rule.weights[b] * colatitudes[y * order + b].sin;
         for (std::size_t b = 0; b < order; ++b) {

@@ -75,8 +75,8 @@ void dfg_row(const double* NoV, std::size_t count, double alpha, const DfgRule& 
     for (std::size_t begin = 0; begin < count; begin += lanes) {
         const std::size_t used = std::min(lanes, count - begin);
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            // A view exactly at the horizon is taken as the limit.
-            const double z = std::clamp(NoV[begin + std::min(lane, used - 1)], 1e-10, 1.0);
+            // A view at the horizon is taken as its limit, 1 - E being about .21 NoV / alpha there.
+            const double z = std::clamp(NoV[begin + std::min(lane, used - 1)], 1e-10 * alpha, 1.0);
             vz[lane] = z;
             vx[lane] = std::sqrt((1 - z) * (1 + z));
             root_v[lane] = smith_ggx_root(z, alpha);

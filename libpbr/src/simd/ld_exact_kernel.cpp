@@ -70,7 +70,7 @@ HWY_EXPORT(add_block);
 /// Points a texel needs at an angle from the lobe's axis: Gauss-Legendre over a texel of angle h converges once h is well
 /// below the distance of the kernel's poles, which is about hypot(2 alpha, angle).
 int order_index(double texel_angle, double alpha, double nearest_angle) {
-    const double reach = texel_angle / std::hypot(2 * alpha, nearest_angle);
+    const double reach = texel_angle / std::sqrt(4 * alpha * alpha + nearest_angle * nearest_angle);
     if (reach < 0.02) return 0;
     const double wanted = 1.5 + 4 * reach;
     int index = 1;
@@ -93,7 +93,7 @@ Cone fill_group(std::span<const glm::dvec3> directions, LdGroup& group) {
         farthest = std::max(farthest, glm::length(n - axis));
         for (auto& channel : group.sum) channel[i] = 0;
     }
-    return {axis, 2 * std::asin(std::min(1.0, farthest / 2))};
+    return {axis, angle_of_chord(farthest)};
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dv
         const Cone& cone = source.cone(block);
         for (PatchPoints& points : by_order) points.resize(0);
         for (std::size_t g = 0; g < group_count; ++g) {
-            const double apart = 2 * std::asin(std::min(1.0, glm::length(cones[g].axis - cone.axis) / 2));
+            const double apart = angle_of_chord(glm::length(cones[g].axis - cone.axis));
             const double nearest = std::max(0.0, apart - cones[g].half_angle - cone.half_angle);
             if (nearest > std::numbers::pi / 2) continue;  // wholly below the horizon
             const int index = order_index(source.texel_angle(), alpha, nearest);

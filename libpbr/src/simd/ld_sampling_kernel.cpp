@@ -54,7 +54,7 @@ void address(D d, const CubePyramid& pyramid, const std::int32_t* level_offsets,
     const auto face = hn::ConvertTo(di, hn::Add(face_pair, hn::IfThenElse(negative, one, zero)));
 
     // Texels shrink towards the corners like q^-3/2, q = 1 + s^2 + t^2: lod += 3/4 log2(q). The series of
-    // log2(q) = (2/ln 2) atanh((q-1)/(q+1)) is off by at most 1.4e-4 on [1, 3]; it only chooses a filter.
+    // log2(q) = (2/ln 2) atanh((q-1)/(q+1)) is off by at most 1.7e-4 on [1, 3]; it only chooses a filter.
     const V q_minus_one = hn::Add(hn::Mul(s, s), hn::Mul(t, t));
     const V w = hn::Div(q_minus_one, hn::Add(q_minus_one, hn::Set(d, 2.0f)));
     const V w2 = hn::Mul(w, w);

@@ -226,11 +226,21 @@ TEST(ProbeParamsCheck, NamesWhatNeitherSchemaNorSizeAllow) {
     ProbeParams params = defaults();
     params.levels = 7;
     params.samples = {1, 2};
-    const std::vector<Mistake> mistakes = check(params);
+    const std::vector<Mistake> mistakes = check(params, "ktx2");
     ASSERT_EQ(mistakes.size(), 2u);
     EXPECT_EQ(mistakes[0].pointer, "/levels");
     EXPECT_NE(mistakes[0].message.find("at most 6"), std::string::npos);
     EXPECT_EQ(mistakes[1].pointer, "/samples");
+}
+
+TEST(ProbeParamsCheck, RefusesSizesThatAnExrCubeCannotHalve) {
+    ProbeParams params = defaults();
+    params.size = 100;
+    ASSERT_EQ(check(params, "exr").size(), 1u);
+    EXPECT_EQ(check(params, "exr")[0].pointer, "/size");
+    EXPECT_TRUE(check(params, "ktx2").empty());
+    params.levels = 3;
+    EXPECT_TRUE(check(params, "exr").empty());
 }
 
 TEST(ProbeCertificate, IntervalHoldsTheFullMeasurement) {
@@ -244,7 +254,7 @@ TEST(ProbeCertificate, IntervalHoldsTheFullMeasurement) {
     ASSERT_EQ(sampled.figures.size(), full.figures.size());
     int compared = 0;
     for (std::size_t i = 0; i < sampled.figures.size(); ++i) {
-        if (sampled.figures[i].metric != "relative_rmse") continue;
+        if (sampled.figures[i].metric != "relative_rmse" || sampled.figures[i].level == 0) continue;
         ASSERT_TRUE(sampled.figures[i].interval);
         EXPECT_EQ(full.figures[i].evidence, Evidence::measured);
         // A 95 % interval, widened by half its width: it must not fail one time in twenty.
@@ -254,6 +264,51 @@ TEST(ProbeCertificate, IntervalHoldsTheFullMeasurement) {
         ++compared;
     }
     EXPECT_EQ(compared, 3);
+}
+
+TEST(ProbeCertificate, FindsPlantedErrors) {
+    const Inputs inputs = equirect(64, axes_picture);
+    ProbeParams params = defaults();
+    params.samples = {1024};
+    const Product sound = bake_probe(params, inputs);
+    const auto headline = [&](const Product& product) {
+        Context context(2, {});
+        return certify(params, inputs, product, context).headline->value;
+    };
+    EXPECT_LT(headline(sound), 5e-3);
+    Product dimmed = sound, mirror_off = sound, swapped = sound;
+    for (float& value : dimmed.images[0].levels[2].texels) value *= 0.98f;
+    for (float& value : mirror_off.images[0].levels[0].texels) value *= 1.02f;
+    auto& texels = swapped.images[0].levels[1].texels;
+    std::swap_ranges(texels.begin(), texels.begin() + 16 * 16 * 3, texels.begin() + 16 * 16 * 3);  // +X and -X
+    for (const Product* broken : {&dimmed, &mirror_off, &swapped}) EXPECT_GT(headline(*broken), 0.015);
+}
+
+TEST(ProbeCertificate, CountsEveryTexelOnceAtAnySize) {
+    const Inputs inputs = equirect(32, axes_picture);
+    for (const int size : {6, 9}) {
+        ProbeParams params = defaults();
+        params.size = size * 2;
+        params.levels = 2;
+        params.samples = {16};
+        const Product product = bake_probe(params, inputs);
+        ProbeParams reference = params;
+        reference.integrator = Integrator::reference;
+        const Product truth = bake_probe(reference, inputs);
+        const auto &a = product.images[0].levels[1].texels, &b = truth.images[0].levels[1].texels;
+        double squared = 0, mean = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            squared += (a[i] - b[i]) * (a[i] - b[i]);
+            mean += a[i];
+        }
+        const double expected = std::sqrt(squared * static_cast<double>(a.size())) / mean;
+        Context context(1, {});
+        context.set_certify_fully(true);
+        for (const Figure& figure : certify(params, inputs, product, context).figures)
+            if (figure.metric == "relative_rmse" && figure.level == 1) {
+                EXPECT_NEAR(figure.value, expected, 1e-4 * expected + 1e-7);
+            }
+    }
 }
 
 TEST(Builtin, OutdoorSunHasItsIlluminanceAndLuminance) {

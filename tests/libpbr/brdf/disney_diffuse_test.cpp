@@ -30,9 +30,9 @@ double albedo_by_directions(const Brdf& f, double NoV, double perceptual_roughne
 TEST(DisneyDiffuse, ClosedFormAlbedoAgreesWithQuadratureOverDirections) {
     for (const double r : {0.0, 0.3, 0.5, 1.0})
         for (const double NoV : {0.0, 0.1, 0.5, 1.0}) {
-            EXPECT_NEAR(albedo_disney_diffuse(NoV, r), albedo_by_directions(f_disney_diffuse<double>, NoV, r), 1e-10);
+            EXPECT_NEAR(albedo_disney_diffuse(NoV, r), albedo_by_directions(f_disney_diffuse<double>, NoV, r), 1e-13);
             EXPECT_NEAR(albedo_disney_diffuse_original(NoV, r),
-                        albedo_by_directions(f_disney_diffuse_original<double>, NoV, r), 1e-10);
+                        albedo_by_directions(f_disney_diffuse_original<double>, NoV, r), 1e-13);
         }
 }
 

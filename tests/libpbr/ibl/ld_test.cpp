@@ -230,35 +230,34 @@ TEST(CubePyramid, LookupIsContinuousAcrossEdgesAndCorners) {
 }
 
 TEST(Ld, KernelAgreesWithItsScalarTwin) {
+    // Samples along the normal don't depend on a texel's turn: each must be the scalar twin's lookup.
     const std::vector<float> picture = lamp_room(64, 32, 20);
     const CubePyramid pyramid(cube_of({picture.data(), 64, 32}, 32), 32);
-    const LdSamples samples = make_ld_samples(LdEstimator::filtered_importance_sampling, 0.3, 1, 32, 1);
-    for (int face = 0; face < 6; ++face)
-        for (int y = 0; y < 8; ++y) {
-            std::vector<CubeTexel> texels;
-            for (int x = 0; x < 8; ++x) texels.push_back({face, x, y});
-            std::vector<float> row(8 * 3);
-            ld_sampled(pyramid, samples, 0, 8, texels, row);
-            for (int x = 0; x < 8; ++x) {
-                // One sample lies at the median of the lobe; averaged over turns it isn't known here, so bound it by the
-                // scalar lookups around the normal instead of repeating the frame's construction.
-                const glm::dvec3 n = cubemap_texel_direction({face, x, y}, 8);
-                float low = 1e30f, high = -1e30f;
-                for (int k = 0; k < 720; ++k) {
-                    const glm::dvec3 helper = std::abs(n.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-                    const glm::dvec3 s = glm::normalize(glm::cross(helper, n)), t = glm::cross(n, s);
-                    const double phi = k * std::numbers::pi / 360, sine = std::hypot(samples.x[0], samples.y[0]);
-                    const glm::dvec3 d = sine * (std::cos(phi) * s + std::sin(phi) * t) + static_cast<double>(samples.z[0]) * n;
-                    const CubePoint point = cube_point(d);
-                    const double q = 1 + point.s * point.s + point.t * point.t;
-                    const float value = pyramid.sample(glm::vec3(d), samples.lod[0] + static_cast<float>(0.75 * std::log2(q)))[0];
-                    low = std::min(low, value);
-                    high = std::max(high, value);
-                }
-                EXPECT_GE(row[x * 3], low - 1e-2f * high);
-                EXPECT_LE(row[x * 3], high + 1e-2f * high);
-            }
+    for (const float lod : {-2.0f, 0.0f, 0.3f, 1.5f, 2.9f, 4.99f, 9.0f}) {
+        LdSamples samples{1, std::vector<float>(16, 0), std::vector<float>(16, 0), std::vector<float>(16, 1), std::vector<float>(16, lod)};
+        for (int i = 0; i < 6 * 12 * 12; ++i) {
+            const CubeTexel texel{i / 144, i % 12, i / 12 % 12};
+            const glm::dvec3 n = cubemap_texel_direction(texel, 12);
+            const CubePoint point = cube_point(n);
+            const double q = 1 + point.s * point.s + point.t * point.t;
+            const glm::vec3 expected = pyramid.sample(glm::vec3(n), lod + static_cast<float>(0.75 * std::log2(q)));
+            std::vector<float> rgb(3);
+            ld_sampled(pyramid, samples, 0, 12, {&texel, 1}, rgb);
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(rgb[static_cast<std::size_t>(c)], expected[c], 5e-4f * expected[c]) << i << " lod " << lod;
         }
+    }
+}
+
+TEST(Ld, PlainSamplesReadTheFinestLevelEverywhere) {
+    const std::vector<float> picture = lamp_room(64, 32, 20);
+    const CubePyramid pyramid(cube_of({picture.data(), 64, 32}, 32), 32);
+    LdSamples samples = make_ld_samples(LdEstimator::importance_sampling, 1e-4, 1, 32, 1);  // along the normal, nearly
+    for (const CubeTexel texel : {CubeTexel{0, 0, 0}, {2, 11, 0}, {4, 6, 6}}) {  // corners and a middle
+        std::vector<float> rgb(3);
+        ld_sampled(pyramid, samples, 0, 12, {&texel, 1}, rgb);
+        const glm::vec3 expected = pyramid.sample(glm::vec3(cubemap_texel_direction(texel, 12)), 0);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(rgb[static_cast<std::size_t>(c)], expected[c], 1e-2f * expected[c]);
+    }
 }
 
 }  // namespace

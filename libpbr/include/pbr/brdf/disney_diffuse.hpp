@@ -29,7 +29,7 @@ T f_disney_diffuse(T NoL, T NoV, T LoH, T perceptual_roughness) {
 }
 
 /// Directional albedo of f_disney_diffuse: its integral times NoL over the hemisphere. NoV and perceptual_roughness in
-/// [0, 1]. Exact to 1e-15: f90 is linear in the cosine of the azimuth and all else polynomial in NoL, so that azimuth
+/// [0, 1]. Exact to 1e-13: f90 is linear in the cosine of the azimuth and all else polynomial in NoL, so that azimuth
 /// integrates in closed form and five Gauss points do the rest.
 double albedo_disney_diffuse(double NoV, double perceptual_roughness);
 

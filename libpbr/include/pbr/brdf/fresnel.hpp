@@ -13,7 +13,7 @@ constexpr T schlick_weight(T cosine) {
 
 /// Schlick's approximation with f90 at grazing incidence: f0 + (f90 - f0)(1 - LoH)^5 (Schlick 1994, "An inexpensive
 /// BRDF model for physically-based rendering", eq. 24; f90 as in Lagarde & de Rousiers 2014, listing 2).
-/// Colour is a floating-point type or a GLM vector; reflectances in [0, 1]; exact at LoH = 1 (f0) and LoH = 0 (f90).
+/// Colour is a floating-point type or a GLM vector; reflectances in [0, 1]; exact at LoH = 1 (f0), within a rounding at LoH = 0 (f90).
 template <class Colour, class T>
 constexpr Colour F_schlick(const Colour& f0, const Colour& f90, T LoH) {
     return f0 + (f90 - f0) * schlick_weight(LoH);

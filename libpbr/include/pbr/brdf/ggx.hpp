@@ -5,15 +5,13 @@
 // so the specular BRDF is D V F, and it has no other factor; 1/pi lives in D.
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace pbr {
 
-/// 1 - NoH^2 as it should be computed near the peak: from the tangential part of the half vector.
 /// The GGX distribution D(h) = alpha^2 / (pi (sin^2 + alpha^2 cos^2)^2), 1/sr (Walter et al. 2007, "Microfacet models
 /// for refraction through rough surfaces", eq. 33, rewritten: the usual (alpha^2-1)cos^2+1 cancels when alpha -> 0).
-/// NoH in [0, 1]; sin2 = 1 - NoH^2 in [0, 1]. Largest value 1/(pi alpha^2), at the normal. alpha = 0 is a delta: not a
+/// NoH in [0, 1]; sin2 = 1 - NoH^2, best had from the tangential part of the half vector. Largest value 1/(pi alpha^2), at the normal. alpha = 0 is a delta: not a
 /// number here, so the caller treats it as a mirror. Relative error below 8 ulp.
 template <class T>
 T D_ggx(T NoH, T sin2, T alpha) {

@@ -65,7 +65,7 @@ inline glm::dvec3 cubemap_texel_direction(const CubeTexel& texel, int size) {
 CubeTexel cubemap_texel(const glm::dvec3& direction, int size);
 
 /// Solid angle of the rectangle [s0, s1] x [t0, t1] of a face, sr: two triangles after Van Oosterom & Strackee (1983,
-/// "The solid angle of a plane triangle", eq. 8). Relative error below 1e-14 at any size; 0 for an empty rectangle.
+/// "The solid angle of a plane triangle", eq. 8). Relative error below 1e-13 at any size; 0 for an empty rectangle.
 double cube_rectangle_solid_angle(double s0, double s1, double t0, double t1);
 
 /// Solid angle of texel (x, y) of any face, sr. The texels of a cube sum to 4 pi within 1e-12.

@@ -25,7 +25,7 @@ struct DirectionalAlbedo {
 struct DfgRule {
     QuadratureRule azimuth;
     QuadratureRule radial;
-    double max_error;  ///< largest error of E and Fc over NoV in [0, 1] and alpha in [1e-8, 1]
+    double max_error;  ///< largest error of E and Fc over NoV in [0, 1] and alpha in [1e-8, 1], and alpha = 0
 
     /// Evaluations of the integrand a table entry costs.
     int evaluations() const { return azimuth.size() * radial.size(); }

@@ -39,6 +39,9 @@ glm::dvec3 equirect_direction(double u, double v);
 /// (u, v) in [0, 1) x [0, 1] of a direction (any length but 0) in the picture's own frame.
 glm::dvec2 equirect_point(const glm::dvec3& direction);
 
+/// Solid angle of a texel of row y, sr: 2 pi / width (cos a - cos b), without cancellation. Relative error below 1e-14.
+double equirect_texel_solid_angle(int width, int height, int y);
+
 /// Row y of a face of a cube map of `size`: each texel the mean radiance of the picture over the texel's solid angle.
 /// `rgb_out` holds size * 3 floats. Every texel's integral is exact in colatitude and by Gauss-Legendre quadrature in
 /// longitude between the picture's columns; relative error of a mean below 1e-3 of the contrast of texels that a cube

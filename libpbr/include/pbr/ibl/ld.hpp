@@ -25,7 +25,7 @@ enum class LdEstimator { importance_sampling, filtered_importance_sampling, exac
 /// one texel copied from its neighbours (at corners the mean of the three that meet), so that no lookup branches at an edge.
 class CubePyramid {
   public:
-    /// From faces of a power-of-two size. Levels are means weighted by solid angle, so that each holds the same flux.
+    /// From faces of a power-of-two size, at most 4096. Levels are means weighted by solid angle, so that each holds the same flux.
     CubePyramid(std::span<const float> rgb, int size);
 
     int size() const { return size_; }
@@ -58,7 +58,7 @@ struct LdSamples {
 /// The first `count` samples for alpha in (0, 1] on a pyramid whose level 0 has `base_size` texels a side.
 /// lod = log2(K Omega_s / Omega_p) / 2 with Omega_s = 1/(count k), and Omega_p = 4 / base_size^2 that of a texel in the
 /// middle of a face; the kernel corrects for where on the face the sample falls. K = `level_bias` > 0 trades bias (large)
-/// for noise (small). importance_sampling leaves lod at 0.
+/// for noise (small). importance_sampling has a lod below every correction: level 0.
 LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int base_size, double level_bias);
 
 /// Texels of a level of `size` by sampling: the unweighted mean over samples (their density is the whole lobe, NoL included,

@@ -26,6 +26,9 @@ struct Cone {
     double half_angle;
 };
 
+/// The angle in [0, pi] between unit vectors that lie `chord` apart; chords a rounding above 2 count as 2.
+double angle_of_chord(double chord);
+
 /// A picture cut into blocks of up to 8 x 8 texels. Keeps a view: the picture must outlive it.
 class PatchBlocks {
   public:
