@@ -4,7 +4,8 @@
 // A baker is three functions over its own Params struct:
 //   reads(params)                              what it will read, before it runs
 //   bake(params, inputs, context)  -> Product
-//   certify(params, inputs, product, context) -> Certificate, of the product as it will be written (quantised)
+//   certify(params, inputs, product, context) -> Certificate, of the product as it will be written
+//   (quantised)
 // and `check(params)`, which finds what a schema can't say. registry.cpp lists them.
 
 #include <cstdint>
@@ -30,9 +31,9 @@ inline constexpr std::string_view kBuiltinScheme = "builtin:";
 
 /// A file a bake will read: the Params field that names it, and how to decode it.
 struct Read {
-    std::string field;                   ///< "source": the key in Inputs, and the JSON pointer's last part
-    std::string path;                    ///< as in the job, or "builtin:NAME"
-    std::string colour_space = "auto";   ///< of the file
+    std::string field;                  ///< "source": the key in Inputs, and the JSON pointer's last part
+    std::string path;                   ///< as in the job, or "builtin:NAME"
+    std::string colour_space = "auto";  ///< of the file
 };
 
 /// Decoded and colour-managed sources, by Params field.
@@ -67,8 +68,8 @@ struct Certificate {
 struct Product {
     std::vector<Image> images;  ///< images[0] is written to X.ext; images[i] to X_<name>.ext
     std::string units = "relative";
-    double scale = 1;   ///< stored value = scale * value; run sets it when the pixel format is too narrow
-    Json properties;    ///< "levels": […] of a probe, "columns": […] of a table
+    double scale = 1;  ///< stored value = scale * value; run sets it when the pixel format is too narrow
+    Json properties;   ///< "levels": […] of a probe, "columns": […] of a table
 };
 
 /// A mistake in a job, at a JSON pointer relative to the bake.

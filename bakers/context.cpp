@@ -6,8 +6,9 @@
 namespace pbrbake {
 namespace {
 
-// oneTBB orders the caller's writes before the bodies and the bodies before the caller's return, but ThreadSanitizer can't
-// see into the library. Under it, and only there, the same order is spelt out in atomics that it does see.
+// oneTBB orders the caller's writes before the bodies and the bodies before the caller's return, but
+// ThreadSanitizer can't see into the library. Under it, and only there, the same order is spelt out in
+// atomics that it does see.
 #if defined(__SANITIZE_THREAD__)
 std::atomic<int> visible_order{0};
 void publish() { visible_order.fetch_add(1, std::memory_order_release); }
@@ -20,7 +21,10 @@ void observe() {}
 }  // namespace
 
 Context::Context(int threads, Accuracy accuracy, ProgressSink progress, const std::atomic<bool>* cancel)
-    : threads_(std::max(1, threads)), accuracy_(std::move(accuracy)), sink_(std::move(progress)), cancel_(cancel) {}
+    : threads_(std::max(1, threads)),
+      accuracy_(std::move(accuracy)),
+      sink_(std::move(progress)),
+      cancel_(cancel) {}
 
 Context::~Context() = default;
 

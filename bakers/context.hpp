@@ -30,7 +30,8 @@ class Context {
     using ProgressSink = std::function<void(double fraction)>;
 
     /// `threads` >= 1. `cancel` may be null; it is polled between chunks of work.
-    Context(int threads, Accuracy accuracy, ProgressSink progress = {}, const std::atomic<bool>* cancel = nullptr);
+    Context(int threads, Accuracy accuracy, ProgressSink progress = {},
+            const std::atomic<bool>* cancel = nullptr);
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
@@ -42,8 +43,9 @@ class Context {
     bool certify_fully() const { return certify_fully_; }
     void set_certify_fully(bool fully) { certify_fully_ = fully; }
 
-    /// Calls body(begin, end) over disjoint ranges that cover [0, count), none longer than `grain`, on the worker
-    /// threads. Results must not depend on the split. Throws Cancelled when interrupted, else what a body threw first.
+    /// Calls body(begin, end) over disjoint ranges that cover [0, count), none longer than `grain`, on the
+    /// worker threads. Results must not depend on the split. Throws Cancelled when interrupted, else what a
+    /// body threw first.
     void parallel_for(std::int64_t count, std::int64_t grain,
                       const std::function<void(std::int64_t begin, std::int64_t end)>& body);
 

@@ -21,9 +21,9 @@ struct Level {
 
 /// A 2D picture (faces == 1) or a cube map (faces == 6), with one or more mip levels, level 0 the largest.
 ///
-/// Cube maps use the project's own orientation: right-handed, y up, faces in the order +X -X +Y -Y +Z -Z, each as
-/// OpenGL samples it (texel (0,0) is at s = t = 0; see libpbr's ibl/cubemap.hpp). Other orientations exist only
-/// inside a codec.
+/// Cube maps use the project's own orientation: right-handed, y up, faces in the order +X -X +Y -Y +Z -Z,
+/// each as OpenGL samples it (texel (0,0) is at s = t = 0; see libpbr's ibl/cubemap.hpp). Other orientations
+/// exist only inside a codec.
 struct Image {
     std::string name;                   ///< "" for a product's only image
     std::vector<std::string> channels;  ///< EXR channel names, in memory order: {"R","G","B"}
@@ -42,7 +42,8 @@ struct Image {
 };
 
 /// Texels changed while reading, because light is neither negative nor infinite.
-/// The rule: NaN, -Inf and negative channels become 0; +Inf becomes the largest finite value of its channel in the image.
+/// The rule: NaN, -Inf and negative channels become 0; +Inf becomes the largest finite value of its channel
+/// in the image.
 struct Repairs {
     std::uint64_t non_finite = 0;  ///< texels with a NaN or Inf in any channel
     std::uint64_t negative = 0;    ///< texels with a negative channel
@@ -51,8 +52,8 @@ struct Repairs {
 
 /// A decoded source: linear light, in the working space that was asked for, repaired.
 struct SourceImage {
-    Image image;              ///< channels R G B; faces 6 for a cube map, 1 for an equirect or a texture
-    std::string colour_space; ///< of the file: stated by the job, else told by the file, else assumed
+    Image image;               ///< channels R G B; faces 6 for a cube map, 1 for an equirect or a texture
+    std::string colour_space;  ///< of the file: stated by the job, else told by the file, else assumed
     bool colour_space_assumed = false;
     std::string units = "relative";  ///< "cd/m^2" only where the source says so
     Repairs repairs;

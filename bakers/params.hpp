@@ -1,5 +1,6 @@
 #pragma once
-// From a validated JSON bake to a plain Params struct: one field a schema property, the same names, no defaults.
+// From a validated JSON bake to a plain Params struct: one field a schema property, the same names, no
+// defaults.
 //
 // A Params struct lists its fields once:
 //     template <class Visit> static void fields(Visit&& visit) { visit("size", &DfgParams::size); … }
@@ -44,7 +45,8 @@ E read_enum(const Json& value) {
     throw Error(ExitCode::invalid_job, "", "unknown value '" + text + "': schema and code disagree");
 }
 
-/// A property that is "one or several" in the schema is a vector in the struct; a lone value becomes one element.
+/// A property that is "one or several" in the schema is a vector in the struct; a lone value becomes one
+/// element.
 template <class T>
 T read_value(const Json& value) {
     if constexpr (IsVector<T>::value) {
@@ -66,7 +68,8 @@ Params read_params(const Json& bake) {
     Params params{};
     Params::fields([&]<class T>(const char* name, T Params::*member) {
         if (!bake.contains(name))
-            throw Error(ExitCode::invalid_job, "", std::string("property '") + name + "' has no value and no default");
+            throw Error(ExitCode::invalid_job, "",
+                        std::string("property '") + name + "' has no value and no default");
         params.*member = params_detail::read_value<T>(bake.at(name));
     });
     return params;

@@ -11,13 +11,17 @@ namespace pbrbake {
 namespace {
 
 template <class Params>
-Baker make_baker(std::string_view kind, int algorithm_version, std::vector<Mistake> (*check)(const Params&, const std::string& format),
-                 std::vector<Read> (*reads)(const Params&), Product (*bake)(const Params&, const Inputs&, Context&),
+Baker make_baker(std::string_view kind, int algorithm_version,
+                 std::vector<Mistake> (*check)(const Params&, const std::string& format),
+                 std::vector<Read> (*reads)(const Params&),
+                 Product (*bake)(const Params&, const Inputs&, Context&),
                  Certificate (*certify)(const Params&, const Inputs&, const Product&, Context&)) {
     return {kind,
             algorithm_version,
             field_names<Params>(),
-            [=](const Json& json) { return check(read_params<Params>(json), json.at("format").get<std::string>()); },
+            [=](const Json& json) {
+                return check(read_params<Params>(json), json.at("format").get<std::string>());
+            },
             [=](const Json& json) { return reads(read_params<Params>(json)); },
             [=](const Json& json, const Inputs& inputs, Context& context) {
                 return bake(read_params<Params>(json), inputs, context);
@@ -32,8 +36,10 @@ Baker make_baker(std::string_view kind, int algorithm_version, std::vector<Mista
 
 std::span<const Baker> bakers() {
     static const std::array list = [] {
-        Baker dfg = make_baker("dfg", dfg::kAlgorithmVersion, dfg::check, dfg::reads, dfg::bake, dfg::certify);
-        Baker probe = make_baker("probe", probe::kAlgorithmVersion, probe::check, probe::reads, probe::bake, probe::certify);
+        Baker dfg =
+            make_baker("dfg", dfg::kAlgorithmVersion, dfg::check, dfg::reads, dfg::bake, dfg::certify);
+        Baker probe = make_baker("probe", probe::kAlgorithmVersion, probe::check, probe::reads, probe::bake,
+                                 probe::certify);
         probe.builtin = probe::builtin_environment;
         return std::array{std::move(dfg), std::move(probe)};
     }();

@@ -11,17 +11,18 @@
 
 namespace pbrbake {
 
-/// One baker behind a face that knows no Params type. `bake` (the first argument of each) is a validated JSON bake
-/// with its defaults filled in.
+/// One baker behind a face that knows no Params type. `bake` (the first argument of each) is a validated JSON
+/// bake with its defaults filled in.
 struct Baker {
     std::string_view kind;
-    int algorithm_version;            ///< raised when the same job would give other bytes; part of the manifest
+    int algorithm_version;  ///< raised when the same job would give other bytes; part of the manifest
     std::vector<std::string> fields;  ///< schema properties its Params reads, besides the common ones
     std::function<std::vector<Mistake>(const Json& bake)> check;
     std::function<std::vector<Read>(const Json& bake)> reads;
     std::function<Product(const Json& bake, const Inputs&, Context&)> run;
     std::function<Certificate(const Json& bake, const Inputs&, const Product&, Context&)> certify;
-    std::function<SourceImage(const std::string& name)> builtin = {};  ///< a source of the baker's own, "builtin:NAME"
+    std::function<SourceImage(const std::string& name)> builtin =
+        {};  ///< a source of the baker's own, "builtin:NAME"
 };
 
 /// All bakers, in the order of their help texts.

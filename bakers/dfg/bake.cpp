@@ -12,16 +12,16 @@ namespace {
 constexpr std::size_t kViewsACall = 64;  // between looks at whether the run was interrupted
 
 /// E and Fc of row y.
-void ggx_row(const DfgParams& params, const pbr::DfgMethod& method, int y, const Context& context, std::vector<double>& E,
-             std::vector<double>& Fc) {
+void ggx_row(const DfgParams& params, const pbr::DfgMethod& method, int y, const Context& context,
+             std::vector<double>& E, std::vector<double>& Fc) {
     const double alpha = pbr::alpha_from_perceptual_roughness(perceptual_roughness_of_row(params, y));
     std::vector<double> NoV(E.size());
     for (std::size_t x = 0; x < NoV.size(); ++x) NoV[x] = nov_of_column(params, static_cast<int>(x));
     for (std::size_t first = 0; first < NoV.size(); first += kViewsACall) {
         context.check_cancelled();
         const std::size_t count = std::min(kViewsACall, NoV.size() - first);
-        pbr::dfg_ggx_row(std::span(NoV).subspan(first, count), alpha, method, std::span(E).subspan(first, count),
-                         std::span(Fc).subspan(first, count));
+        pbr::dfg_ggx_row(std::span(NoV).subspan(first, count), alpha, method,
+                         std::span(E).subspan(first, count), std::span(Fc).subspan(first, count));
     }
 }
 
@@ -54,7 +54,8 @@ Product bake(const DfgParams& params, const Inputs&, Context& context) {
 
     Image image;
     for (int c = 0; c < channels; ++c) image.channels.emplace_back(1, "RGBA"[c]);
-    image.levels.push_back({width, height, std::vector<float>(static_cast<std::size_t>(width) * height * channels)});
+    image.levels.push_back(
+        {width, height, std::vector<float>(static_cast<std::size_t>(width) * height * channels)});
     context.expect(height);
     context.parallel_for(height, 4, [&](std::int64_t begin, std::int64_t end) {
         std::vector<double> E(width), Fc(width);
@@ -62,7 +63,8 @@ Product bake(const DfgParams& params, const Inputs&, Context& context) {
             if (ggx) ggx_row(params, method, y, context, E, Fc);
             const double perceptual_roughness = perceptual_roughness_of_row(params, y);
             for (int x = 0; x < width; ++x) {
-                const double diffuse = disney ? disney_albedo(params, nov_of_column(params, x), perceptual_roughness) : 0;
+                const double diffuse =
+                    disney ? disney_albedo(params, nov_of_column(params, x), perceptual_roughness) : 0;
                 write_texel(params, {E[x], Fc[x]}, diffuse, image.texel(0, 0, y, x));
             }
             context.advance(1);

@@ -23,8 +23,8 @@ const pbr::DfgMethod& truth() {
 }
 
 /// The true channels at views of one roughness.
-std::vector<float> true_texels(const DfgParams& params, const std::vector<double>& NoV, double perceptual_roughness,
-                               Context& context) {
+std::vector<float> true_texels(const DfgParams& params, const std::vector<double>& NoV,
+                               double perceptual_roughness, Context& context) {
     std::vector<double> E(NoV.size()), Fc(NoV.size());
     if (has_term(params, Term::ggx)) {
         pbr::dfg_ggx_row(NoV, pbr::alpha_from_perceptual_roughness(perceptual_roughness), truth(), E, Fc);
@@ -33,7 +33,8 @@ std::vector<float> true_texels(const DfgParams& params, const std::vector<double
     const std::size_t channels = static_cast<std::size_t>(column_count(params));
     std::vector<float> texels(NoV.size() * channels);
     for (std::size_t i = 0; i < NoV.size(); ++i)
-        write_texel(params, {E[i], Fc[i]}, disney_albedo(params, NoV[i], perceptual_roughness), &texels[i * channels]);
+        write_texel(params, {E[i], Fc[i]}, disney_albedo(params, NoV[i], perceptual_roughness),
+                    &texels[i * channels]);
     return texels;
 }
 
@@ -45,7 +46,8 @@ double lookup(const Image& image, double column, double row, int channel) {
     const int x1 = std::min(x0 + 1, level.width - 1), y1 = std::min(y0 + 1, level.height - 1);
     const double fx = x - x0, fy = y - y0;
     const auto at = [&](int j, int i) { return static_cast<double>(image.texel(0, 0, j, i)[channel]); };
-    return (1 - fy) * ((1 - fx) * at(y0, x0) + fx * at(y0, x1)) + fy * ((1 - fx) * at(y1, x0) + fx * at(y1, x1));
+    return (1 - fy) * ((1 - fx) * at(y0, x0) + fx * at(y0, x1)) +
+           fy * ((1 - fx) * at(y1, x0) + fx * at(y1, x1));
 }
 
 /// Largest errors over rows of checked points. Reduced in order: the same at any thread count.
@@ -58,11 +60,12 @@ double largest(Context& context, int rows, const ErrorOfRow& error_of_row) {
     return rows > 0 ? *std::max_element(errors.begin(), errors.end()) : 0;
 }
 
-double texel_error(const DfgParams& params, const Image& image, double scale, int y, const std::vector<int>& columns,
-                   Context& context) {
+double texel_error(const DfgParams& params, const Image& image, double scale, int y,
+                   const std::vector<int>& columns, Context& context) {
     std::vector<double> NoV;
     for (const int x : columns) NoV.push_back(nov_of_column(params, x));
-    const std::vector<float> truth = true_texels(params, NoV, perceptual_roughness_of_row(params, y), context);
+    const std::vector<float> truth =
+        true_texels(params, NoV, perceptual_roughness_of_row(params, y), context);
     const int channels = image.channel_count();
     double error = 0;
     for (std::size_t i = 0; i < columns.size(); ++i)
@@ -74,14 +77,16 @@ double texel_error(const DfgParams& params, const Image& image, double scale, in
 
 /// Rows of views that each of the two checks can afford, so that together they cost about what the bake did.
 int checked_rows(const DfgParams& params, const Context& context) {
-    const double per_texel = params.integrator == Integrator::quadrature
-                                 ? pbr::DfgMethod::quadrature(quadrature_error(context.accuracy())).evaluations()
-                                 : params.samples;
+    const double per_texel =
+        params.integrator == Integrator::quadrature
+            ? pbr::DfgMethod::quadrature(quadrature_error(context.accuracy())).evaluations()
+            : params.samples;
     const double bake = per_texel * params.width() * params.height();
     return static_cast<int>(std::clamp(bake / (2.0 * kViewsARow * truth().evaluations()), 2.0, 64.0));
 }
 
-/// The error at texels, storage included: all of them, or some chosen by hash, the hard corner always among them.
+/// The error at texels, storage included: all of them, or some chosen by hash, the hard corner always among
+/// them.
 Figure texel_figure(const DfgParams& params, const Product& product, std::uint64_t seed, Context& context) {
     const int width = params.width(), height = params.height();
     // A stated max_error is held against every texel: the largest of some would be a lower bound.
@@ -94,17 +99,24 @@ Figure texel_figure(const DfgParams& params, const Product& product, std::uint64
             return texel_error(params, product.images[0], product.scale, i, columns, context);
         }
         const int smoothest = params.flip_rows ? height - 1 : 0;
-        const int y = i == 0 ? smoothest : static_cast<int>(pbr::random_bits(seed, 1, i) % static_cast<unsigned>(height));
+        const int y = i == 0 ? smoothest
+                             : static_cast<int>(pbr::random_bits(seed, 1, i) % static_cast<unsigned>(height));
         std::vector<int> columns{0};
         for (int k = 1; k < kViewsARow; ++k)
-            columns.push_back(static_cast<int>(pbr::random_bits(seed, 2, i, k) % static_cast<unsigned>(width)));
+            columns.push_back(
+                static_cast<int>(pbr::random_bits(seed, 2, i, k) % static_cast<unsigned>(width)));
         return texel_error(params, product.images[0], product.scale, y, columns, context);
     });
     const std::string where = all ? "at every texel"
                                   : "at " + std::to_string(rows * kViewsARow) +
-                                        " texels chosen by hash, the smoothest row and the grazing side among them; the largest found, so a lower bound";
-    return {"max_abs_error", error, all ? Evidence::measured : Evidence::estimate,
-            "stored values against quadrature to 1e-8, " + where, {}, {}};
+                                        " texels chosen by hash, the smoothest row and the grazing side "
+                                        "among them; the largest found, so a lower bound";
+    return {"max_abs_error",
+            error,
+            all ? Evidence::measured : Evidence::estimate,
+            "stored values against quadrature to 1e-8, " + where,
+            {},
+            {}};
 }
 
 /// The error of a shader's bilinear lookup between texels.
@@ -123,15 +135,19 @@ Figure sampled_figure(const DfgParams& params, const Product& product, std::uint
         for (std::size_t k = 0; k < NoV.size(); ++k)
             for (std::size_t c = 0; c < channels; ++c) {
                 const double value = lookup(image, column_of_nov(params, NoV[k]), row, static_cast<int>(c));
-                worst = std::max(worst, std::abs(value / product.scale - static_cast<double>(truth[k * channels + c])));
+                worst = std::max(
+                    worst, std::abs(value / product.scale - static_cast<double>(truth[k * channels + c])));
             }
         return worst;
     });
-    return {"max_abs_error_sampled", error, Evidence::estimate,
+    return {"max_abs_error_sampled",
+            error,
+            Evidence::estimate,
             "bilinear lookup against quadrature to 1e-8, at " + std::to_string(rows * kViewsARow) +
                 " points chosen by hash over NoV in [0, 1] and perceptual roughness from "
                 "min_perceptual_roughness to 1; the largest found, so a lower bound",
-            {}, {}};
+            {},
+            {}};
 }
 
 }  // namespace
@@ -140,8 +156,12 @@ Certificate certify(const DfgParams& params, const Inputs&, const Product& produ
     const std::uint64_t seed = pbr::random_bits(params.seed, 0x646667u);
     Certificate certificate;
     if (has_term(params, Term::ggx) && params.integrator == Integrator::quadrature)
-        certificate.figures.push_back({"quadrature_error", pbr::dfg_rule(quadrature_error(context.accuracy())).max_error,
-                                       Evidence::bound, "promised of E and Fc over the whole domain, and held by a test", {}, {}});
+        certificate.figures.push_back({"quadrature_error",
+                                       pbr::dfg_rule(quadrature_error(context.accuracy())).max_error,
+                                       Evidence::bound,
+                                       "promised of E and Fc over the whole domain, and held by a test",
+                                       {},
+                                       {}});
 
     certificate.headline = texel_figure(params, product, seed, context);
     certificate.figures.push_back(*certificate.headline);

@@ -1,5 +1,6 @@
 #pragma once
-// The DFG baker: directional albedo tables for the split sum and the Disney diffuse term. README.md has the maths.
+// The DFG baker: directional albedo tables for the split sum and the Disney diffuse term. README.md has the
+// maths.
 
 #include "bakers/dfg/params.hpp"
 

@@ -37,7 +37,8 @@ double column_of_nov(const DfgParams& params, double NoV) {
 
 double row_of_perceptual_roughness(const DfgParams& params, double perceptual_roughness) {
     const bool by_alpha = params.roughness_axis == RoughnessAxis::alpha;
-    const double v = by_alpha ? pbr::alpha_from_perceptual_roughness(perceptual_roughness) : perceptual_roughness;
+    const double v =
+        by_alpha ? pbr::alpha_from_perceptual_roughness(perceptual_roughness) : perceptual_roughness;
     const double row = texel(params.align, v, params.height());
     return params.flip_rows ? params.height() - 1 - row : row;
 }

@@ -10,7 +10,8 @@ namespace pbrbake::dfg {
 double nov_of_column(const DfgParams& params, int x);
 double perceptual_roughness_of_row(const DfgParams& params, int y);
 
-/// Continuous texel coordinates (0 at the middle of the first texel) at which a shader finds a view and roughness.
+/// Continuous texel coordinates (0 at the middle of the first texel) at which a shader finds a view and
+/// roughness.
 double column_of_nov(const DfgParams& params, double NoV);
 double row_of_perceptual_roughness(const DfgParams& params, double perceptual_roughness);
 

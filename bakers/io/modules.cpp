@@ -19,7 +19,8 @@ std::vector<std::filesystem::path> module_directories() {
     if (!error) {
         const auto folder = executable.parent_path();
         directories.push_back(folder.parent_path() / "lib" / "pbrbake");
-        // Where an installed tree has it, wherever that tree now stands: lib may be lib64 or lib/x86_64-linux-gnu.
+        // Where an installed tree has it, wherever that tree now stands: lib may be lib64 or
+        // lib/x86_64-linux-gnu.
         const auto installed = (folder / PBRBAKE_MODULE_DIR_FROM_PROGRAM).lexically_normal();
         if (installed != directories.front()) directories.push_back(installed);
     }

@@ -168,7 +168,8 @@ std::vector<Mistake> overwrites(const Job& job) {
     };
     keep(job.file, "the job file");
     for (const Bake& bake : job.bakes)
-        for (const Source& source : bake.sources) keep(source.file, "the source of bake \"" + bake.name + "\"");
+        for (const Source& source : bake.sources)
+            keep(source.file, "the source of bake \"" + bake.name + "\"");
 
     std::vector<Mistake> mistakes;
     const auto write = [&](const std::string& file, const std::string& pointer) {

@@ -18,10 +18,14 @@ namespace {
 
 constexpr double kLargestPyramid = 1024;  // 134 MB of RGBA floats; far finer than any lobe that is sampled
 
-Level empty_level(int size) { return {size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)}; }
+Level empty_level(int size) {
+    return {size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)};
+}
 
 float* texel_of(Level& level, const pbr::CubeTexel& texel) {
-    return &level.texels[((static_cast<std::size_t>(texel.face) * level.height + texel.y) * level.width + texel.x) * 3];
+    return &level.texels[((static_cast<std::size_t>(texel.face) * level.height + texel.y) * level.width +
+                          texel.x) *
+                         3];
 }
 
 /// Fills a level by row(face, y, RGB of the row).
@@ -38,8 +42,10 @@ void fill_rows(Context& context, int size, Level& level, const Row& row) {
     });
 }
 
-/// Fills a level by integration, in strips of 4 x 4 tiles: the exact estimator likes texels that lie together.
-void fill_strips(Context& context, const pbr::LdIntegrator& integrator, int size, double work_of_texel, Level& level) {
+/// Fills a level by integration, in strips of 4 x 4 tiles: the exact estimator likes texels that lie
+/// together.
+void fill_strips(Context& context, const pbr::LdIntegrator& integrator, int size, double work_of_texel,
+                 Level& level) {
     level = empty_level(size);
     const int side = std::min(size, 4), strips = (size + side - 1) / side;
     std::atomic<std::uint64_t> evaluations{0};
@@ -52,15 +58,17 @@ void fill_strips(Context& context, const pbr::LdIntegrator& integrator, int size
                     for (int x = left; x < std::min(left + side, size); ++x) texels.push_back({face, x, y});
             std::vector<float> rgb(texels.size() * 3);
             evaluations += integrator.integrate(size, texels, rgb);
-            for (std::size_t k = 0; k < texels.size(); ++k) std::copy_n(&rgb[k * 3], 3, texel_of(level, texels[k]));
+            for (std::size_t k = 0; k < texels.size(); ++k)
+                std::copy_n(&rgb[k * 3], 3, texel_of(level, texels[k]));
             context.advance(work_of_texel * static_cast<double>(texels.size()));
         }
     });
     context.count("ld", evaluations);
 }
 
-/// Texels a side of the pyramid that samples read: about ten across the narrowest lobe (finer ones change no digit of the
-/// result), but no texel below a quarter of the source's, whose edges it then shows exactly enough.
+/// Texels a side of the pyramid that samples read: about ten across the narrowest lobe (finer ones change no
+/// digit of the result), but no texel below a quarter of the source's, whose edges it then shows exactly
+/// enough.
 int pyramid_size(const ProbeParams& params, const Environment& environment) {
     const double alpha = pbr::alpha_from_perceptual_roughness(perceptual_roughness_of_level(params, 1));
     const double wanted = std::min({8 / alpha, 4.0 * environment.equivalent_size(), kLargestPyramid});
@@ -94,7 +102,8 @@ double work_of_texel(const ProbeParams& params, int level, const Environment& en
 }
 
 /// Levels from 1 on.
-void filtered_levels(const ProbeParams& params, const Environment& environment, Context& context, Image& image) {
+void filtered_levels(const ProbeParams& params, const Environment& environment, Context& context,
+                     Image& image) {
     std::optional<pbr::PatchBlocks> source;
     std::optional<pbr::CubePyramid> pyramid;
     if (params.integrator == Integrator::reference) {
@@ -118,7 +127,8 @@ Json level_properties(const ProbeParams& params) {
         Json level = {{"size", size_of_level(params, l)},
                       {"perceptual_roughness", perceptual_roughness},
                       {"alpha", pbr::alpha_from_perceptual_roughness(perceptual_roughness)}};
-        if (l > 0 && params.integrator != Integrator::reference) level["samples"] = samples_of_level(params, l);
+        if (l > 0 && params.integrator != Integrator::reference)
+            level["samples"] = samples_of_level(params, l);
         levels.push_back(std::move(level));
     }
     return levels;
@@ -131,9 +141,11 @@ std::vector<Mistake> check(const ProbeParams& params, const std::string& format)
     const int full = full_chain(params.size);
     if (params.levels > full)
         mistakes.push_back({"/levels", "found " + std::to_string(params.levels) + "; allowed: at most " +
-                                           std::to_string(full) + " for size " + std::to_string(params.size)});
+                                           std::to_string(full) + " for size " +
+                                           std::to_string(params.size)});
     const int levels = std::min(level_count(params), full);
-    if (format == "exr" && params.size % (1 << (levels - 1)) != 0)  // OpenEXR halves the six faces as one picture
+    if (format == "exr" &&
+        params.size % (1 << (levels - 1)) != 0)  // OpenEXR halves the six faces as one picture
         mistakes.push_back({"/size", "found " + std::to_string(params.size) + "; allowed: multiples of " +
                                          std::to_string(1 << (levels - 1)) + " for an EXR cube map of " +
                                          std::to_string(levels) + " levels; or take fewer levels, or ktx2"});
@@ -144,7 +156,9 @@ std::vector<Mistake> check(const ProbeParams& params, const std::string& format)
     return mistakes;
 }
 
-std::vector<Read> reads(const ProbeParams& params) { return {{"source", params.source, params.colour_space}}; }
+std::vector<Read> reads(const ProbeParams& params) {
+    return {{"source", params.source, params.colour_space}};
+}
 
 Product bake(const ProbeParams& params, const Inputs& inputs, Context& context) {
     const SourceImage& source = inputs.at("source");
@@ -162,8 +176,9 @@ Product bake(const ProbeParams& params, const Inputs& inputs, Context& context) 
         const double size = size_of_level(params, l);
         context.expect(6 * size * size * work_of_texel(params, l, environment));
     }
-    fill_rows(context, params.size, image.levels[0],
-              [&](int face, int y, std::span<float> rgb) { environment.resample_row(params.size, face, y, rgb); });
+    fill_rows(context, params.size, image.levels[0], [&](int face, int y, std::span<float> rgb) {
+        environment.resample_row(params.size, face, y, rgb);
+    });
     if (level_count(params) > 1) filtered_levels(params, environment, context, image);
 
     Product product;

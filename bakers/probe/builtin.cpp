@@ -21,31 +21,38 @@ glm::dvec3 light(double luminance_nit, const glm::dvec3& tint) {
     return tint * (luminance_nit / glm::dot(tint, glm::dvec3(0.2126, 0.7152, 0.0722)));
 }
 
-glm::dvec3 mix(const glm::dvec3& a, const glm::dvec3& b, double t) { return a + (b - a) * std::clamp(t, 0.0, 1.0); }
+glm::dvec3 mix(const glm::dvec3& a, const glm::dvec3& b, double t) {
+    return a + (b - a) * std::clamp(t, 0.0, 1.0);
+}
 
-// --- outdoor: a clear sky, the sun at 45 degrees, and ground of albedo .2 ----------------------------------------------
+// --- outdoor: a clear sky, the sun at 45 degrees, and ground of albedo .2
+// ----------------------------------------------
 
 constexpr double kSunHalfAngle = 0.00465;      // rad: .53 degrees across
 constexpr double kSunIlluminance = 100'000.0;  // lx, on a plane facing it; 1.47e9 cd/m^2 over 6.79e-5 sr
 
-/// 45 degrees high, in the middle of a texel, which then lies wholly inside the disk and shows its full luminance.
+/// 45 degrees high, in the middle of a texel, which then lies wholly inside the disk and shows its full
+/// luminance.
 glm::dvec3 sun_direction() { return pbr::equirect_direction(597.5 / kWidth, 127.5 / kHeight); }
 
 glm::dvec3 clear_sky(const glm::dvec3& d) {
-    if (d.y < 0)  // (100 klx sin 45 deg + about 15 klx of sky) * .2 / pi, darker straight below where things cast shadows
+    if (d.y < 0)  // (100 klx sin 45 deg + about 15 klx of sky) * .2 / pi, darker straight below where things
+                  // cast shadows
         return light(mix({5400, 0, 0}, {3600, 0, 0}, d.y * d.y).x, {1.05, 1.0, 0.85});
     const double height = std::sqrt(d.y);
     const glm::dvec3 gradient = mix(light(9000, {0.85, 1.0, 1.25}), light(2500, {0.45, 0.85, 1.9}), height);
     const double towards_sun = std::max(0.0, glm::dot(d, sun_direction()));
     const double towards2 = towards_sun * towards_sun, towards8 = towards2 * towards2 * towards2 * towards2;
-    return gradient + light(12000, {1.1, 1.0, 0.85}) * (towards8 * towards8 * towards8 * 0.6 + towards8 * 0.15);
+    return gradient +
+           light(12000, {1.1, 1.0, 0.85}) * (towards8 * towards8 * towards8 * 0.6 + towards8 * 0.15);
 }
 
 /// Adds the sun's disk: its flux shared among texels by how much of each it covers, and exact in sum.
 void add_sun(Level& level) {
     constexpr int kGrid = 16;
     const glm::dvec3 sun = sun_direction();
-    const double half = pbr::sin_cos_pi(kSunHalfAngle / 2 / std::numbers::pi).sin, radius2 = 4 * half * half;  // squared chord of the disk's edge
+    const double half = pbr::sin_cos_pi(kSunHalfAngle / 2 / std::numbers::pi).sin,
+                 radius2 = 4 * half * half;  // squared chord of the disk's edge
     std::vector<double> covered(level.texels.size() / 3, 0.0);
     pbr::CompensatedSum total;
     for (int y = 0; y < kHeight; ++y)
@@ -75,7 +82,8 @@ void add_sun(Level& level) {
     }
 }
 
-// --- indoor: a room of 7 x 3 x 5 m with a window, two lamps and a tiled floor, seen from 1.5 m above its middle --------
+// --- indoor: a room of 7 x 3 x 5 m with a window, two lamps and a tiled floor, seen from 1.5 m above its
+// middle --------
 
 glm::dvec3 room(const glm::dvec3& d) {
     const glm::dvec3 half(3.5, 1.5, 2.5);
@@ -96,10 +104,12 @@ glm::dvec3 room(const glm::dvec3& d) {
         return light(110 * daylight, {1.05, 1, 0.9});
     }
     if (wall == 1) {
-        const bool dark = (static_cast<int>(std::floor(p.x / 0.5)) + static_cast<int>(std::floor(p.z / 0.5))) % 2 != 0;
+        const bool dark =
+            (static_cast<int>(std::floor(p.x / 0.5)) + static_cast<int>(std::floor(p.z / 0.5))) % 2 != 0;
         return light((dark ? 25 : 80) * daylight, {1.1, 1, 0.85});
     }
-    return light((wall == 2 ? 75 : 60) * daylight, wall == 2 ? glm::dvec3(1, 1, 0.95) : glm::dvec3(0.8, 1, 0.9));
+    return light((wall == 2 ? 75 : 60) * daylight,
+                 wall == 2 ? glm::dvec3(1, 1, 0.95) : glm::dvec3(0.8, 1, 0.9));
 }
 
 }  // namespace

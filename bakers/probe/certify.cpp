@@ -30,8 +30,8 @@ struct Tile {
 Tile random_tile(int size, std::uint64_t bits) {
     const int side = std::min(kTile, size);
     const auto places = static_cast<unsigned>(size - side + 1);
-    return {static_cast<int>(bits % 6), static_cast<int>((bits >> 8) % places), static_cast<int>((bits >> 32) % places),
-            side, side};
+    return {static_cast<int>(bits % 6), static_cast<int>((bits >> 8) % places),
+            static_cast<int>((bits >> 32) % places), side, side};
 }
 
 /// Tiles side by side that cover all faces, those at the ends cut short.
@@ -44,15 +44,16 @@ std::vector<Tile> all_tiles(int size) {
     return tiles;
 }
 
-/// How many tiles a level can afford, so that checking costs no more than the bake: an exact texel costs as many kernel
-/// evaluations as about half the source has texels, each a tenth of a filtered sample's time.
+/// How many tiles a level can afford, so that checking costs no more than the bake: an exact texel costs as
+/// many kernel evaluations as about half the source has texels, each a tenth of a filtered sample's time.
 int affordable_tiles(const ProbeParams& params, const Environment& environment, int level) {
     constexpr double kFewest = 2, kMost = 64;
     const double n = environment.equivalent_size(), size = size_of_level(params, level);
     const double whole = std::max(1.0, 6 * size * size / (kTile * kTile));
     if (params.integrator == Integrator::reference) return static_cast<int>(std::min(kMost, whole));
     const double exact_texel = 6 * n * n / 2 / 10;
-    const double affordable = 6 * size * size * samples_of_level(params, level) / (exact_texel * kTile * kTile);
+    const double affordable =
+        6 * size * size * samples_of_level(params, level) / (exact_texel * kTile * kTile);
     return static_cast<int>(std::min(std::clamp(affordable, kFewest, kMost), whole));
 }
 
@@ -81,8 +82,8 @@ void tile_errors(const pbr::PatchBlocks& blocks, double alpha, const Product& pr
         errors[k].deviation = deviation;
         for (int i = 0; i < tile.texels(); ++i)
             for (int c = 0; c < 3; ++c) {
-                const double stored =
-                    product.images[0].texel(level, tile.face, tile.top + i / tile.width, tile.left + i % tile.width)[c];
+                const double stored = product.images[0].texel(level, tile.face, tile.top + i / tile.width,
+                                                              tile.left + i % tile.width)[c];
                 const double difference = std::abs(stored / product.scale - *exact++);
                 errors[k].squared += difference * difference;
                 errors[k].largest = std::max(errors[k].largest, difference);
@@ -91,7 +92,8 @@ void tile_errors(const pbr::PatchBlocks& blocks, double alpha, const Product& pr
     }
 }
 
-/// Mean of a level's stored values over texels and channels; 1 for a black level, whose errors are then absolute.
+/// Mean of a level's stored values over texels and channels; 1 for a black level, whose errors are then
+/// absolute.
 double mean_of_level(const Product& product, int level) {
     const std::vector<float>& texels = product.images[0].levels[static_cast<std::size_t>(level)].texels;
     pbr::CompensatedSum sum;
@@ -115,8 +117,10 @@ double energy_of_level(const Product& product, int level) {
     return flux.value() / product.scale;
 }
 
-/// Root mean square over texels, over the level's mean; with its 95 % interval where tiles were chosen by hash.
-Figure relative_rmse(std::span<const Tile> tiles, std::span<const TileError> errors, int level, double mean, bool all) {
+/// Root mean square over texels, over the level's mean; with its 95 % interval where tiles were chosen by
+/// hash.
+Figure relative_rmse(std::span<const Tile> tiles, std::span<const TileError> errors, int level, double mean,
+                     bool all) {
     double squared = 0, values = 0;
     for (std::size_t k = 0; k < tiles.size(); ++k) {
         squared += errors[k].squared;
@@ -124,10 +128,17 @@ Figure relative_rmse(std::span<const Tile> tiles, std::span<const TileError> err
     }
     squared /= values;
     const double value = std::sqrt(squared) / mean;
-    if (all) return {"relative_rmse", value, Evidence::measured, "all stored texels against the exact sum", {}, level};
-    Figure figure{"relative_rmse", value, Evidence::estimate,
-                  "stored texels against the exact sum, " + std::to_string(tiles.size()) + " tiles of up to " +
-                      std::to_string(kTile) + " x " + std::to_string(kTile) + " texels chosen by hash", {}, level};
+    if (all)
+        return {
+            "relative_rmse", value, Evidence::measured, "all stored texels against the exact sum", {}, level};
+    Figure figure{"relative_rmse",
+                  value,
+                  Evidence::estimate,
+                  "stored texels against the exact sum, " + std::to_string(tiles.size()) +
+                      " tiles of up to " + std::to_string(kTile) + " x " + std::to_string(kTile) +
+                      " texels chosen by hash",
+                  {},
+                  level};
     if (tiles.size() < 2) return figure;
     const double count = static_cast<double>(tiles.size());
     double variance = 0;
@@ -136,19 +147,22 @@ Figure relative_rmse(std::span<const Tile> tiles, std::span<const TileError> err
         variance += of_tile * of_tile;
     }
     const double half_width = 1.96 * std::sqrt(variance / (count * (count - 1)));
-    figure.interval = {std::sqrt(std::max(0.0, squared - half_width)) / mean, std::sqrt(squared + half_width) / mean};
+    figure.interval = {std::sqrt(std::max(0.0, squared - half_width)) / mean,
+                       std::sqrt(squared + half_width) / mean};
     return figure;
 }
 
 /// Level 0 against the resampled source, on all rows or on some chosen by hash: what storage changed.
-Figure mirror_figure(const ProbeParams& params, const Environment& environment, const Product& product, Context& context) {
+Figure mirror_figure(const ProbeParams& params, const Environment& environment, const Product& product,
+                     Context& context) {
     constexpr int kRows = 16;
     const int size = params.size;
     const bool all = context.certify_fully() || 6 * size <= kRows;
     const int rows = all ? 6 * size : kRows;
     std::vector<double> squared(static_cast<std::size_t>(rows));
     context.parallel_for(rows, 1, [&](std::int64_t begin, std::int64_t) {
-        const auto row = all ? static_cast<std::uint64_t>(begin) : pbr::random_bits(params.seed, 0x6d69u, begin) % (6u * size);
+        const auto row = all ? static_cast<std::uint64_t>(begin)
+                             : pbr::random_bits(params.seed, 0x6d69u, begin) % (6u * size);
         const int face = static_cast<int>(row / size), y = static_cast<int>(row % size);
         std::vector<float> truth(static_cast<std::size_t>(size) * 3);
         environment.resample_row(size, face, y, truth);
@@ -160,12 +174,16 @@ Figure mirror_figure(const ProbeParams& params, const Environment& environment, 
     });
     double sum = 0;
     for (const double of_row : squared) sum += of_row;
-    return {"relative_rmse", std::sqrt(sum / (rows * size * 3.0)) / mean_of_level(product, 0),
+    return {"relative_rmse",
+            std::sqrt(sum / (rows * size * 3.0)) / mean_of_level(product, 0),
             all ? Evidence::measured : Evidence::estimate,
-            "stored texels of " + std::to_string(rows) + " rows against the resampled source", {}, 0};
+            "stored texels of " + std::to_string(rows) + " rows against the resampled source",
+            {},
+            0};
 }
 
-std::vector<Tile> tiles_of_level(const ProbeParams& params, const Environment& environment, int level, bool all) {
+std::vector<Tile> tiles_of_level(const ProbeParams& params, const Environment& environment, int level,
+                                 bool all) {
     const int size = size_of_level(params, level);
     if (all) return all_tiles(size);
     std::vector<Tile> tiles;
@@ -175,14 +193,15 @@ std::vector<Tile> tiles_of_level(const ProbeParams& params, const Environment& e
 }
 
 /// A filtered level against the exact sum.
-std::vector<Figure> level_figures(const std::vector<Tile>& tiles, const pbr::PatchBlocks& blocks, const Product& product,
-                                  int level, double alpha, Context& context) {
+std::vector<Figure> level_figures(const std::vector<Tile>& tiles, const pbr::PatchBlocks& blocks,
+                                  const Product& product, int level, double alpha, Context& context) {
     std::vector<TileError> errors(tiles.size());
-    context.parallel_for(static_cast<std::int64_t>(tiles.size()), kTilesACall, [&](std::int64_t begin, std::int64_t end) {
-        const auto first = static_cast<std::size_t>(begin), count = static_cast<std::size_t>(end - begin);
-        tile_errors(blocks, alpha, product, level, std::span(tiles).subspan(first, count),
-                    std::span(errors).subspan(first, count), context);
-    });
+    context.parallel_for(
+        static_cast<std::int64_t>(tiles.size()), kTilesACall, [&](std::int64_t begin, std::int64_t end) {
+            const auto first = static_cast<std::size_t>(begin), count = static_cast<std::size_t>(end - begin);
+            tile_errors(blocks, alpha, product, level, std::span(tiles).subspan(first, count),
+                        std::span(errors).subspan(first, count), context);
+        });
     const double mean = mean_of_level(product, level);
     TileError worst;
     for (const TileError& error : errors) {
@@ -192,13 +211,18 @@ std::vector<Figure> level_figures(const std::vector<Tile>& tiles, const pbr::Pat
     const Figure rmse = relative_rmse(tiles, errors, level, mean, context.certify_fully());
     return {rmse,
             {"max_error_over_mean", worst.largest / mean, rmse.evidence, rmse.method, {}, level},
-            {"error_of_the_exact_sum", worst.deviation, Evidence::measured,
-             "largest |1 - integral of the kernel| by the quadrature of the exact sums", {}, level}};
+            {"error_of_the_exact_sum",
+             worst.deviation,
+             Evidence::measured,
+             "largest |1 - integral of the kernel| by the quadrature of the exact sums",
+             {},
+             level}};
 }
 
 }  // namespace
 
-Certificate certify(const ProbeParams& params, const Inputs& inputs, const Product& product, Context& context) {
+Certificate certify(const ProbeParams& params, const Inputs& inputs, const Product& product,
+                    Context& context) {
     const Environment environment(params, inputs.at("source"));
     const pbr::PatchBlocks blocks = environment.blocks();
     const double source_energy = environment.energy();
@@ -216,11 +240,16 @@ Certificate certify(const ProbeParams& params, const Inputs& inputs, const Produ
         } else {
             figures = level_figures(tiles[static_cast<std::size_t>(l)], blocks, product, l, alpha, context);
         }
-        if (!certificate.headline || figures[0].value > certificate.headline->value) certificate.headline = figures[0];
+        if (!certificate.headline || figures[0].value > certificate.headline->value)
+            certificate.headline = figures[0];
         certificate.figures.insert(certificate.figures.end(), figures.begin(), figures.end());
         const double ratio = source_energy > 0 ? energy_of_level(product, l) / source_energy - 1 : 0;
-        certificate.figures.push_back({"energy_error", ratio, Evidence::measured,
-                                       "solid-angle weighted sum of all texels against the source's", {}, l});
+        certificate.figures.push_back({"energy_error",
+                                       ratio,
+                                       Evidence::measured,
+                                       "solid-angle weighted sum of all texels against the source's",
+                                       {},
+                                       l});
     }
     return certificate;
 }

@@ -12,8 +12,9 @@
 namespace pbrbake::probe {
 namespace {
 
-/// Takes world directions to the source's own frame. The environment is first mirrored left to right (x -> -x), then
-/// turned counter-clockwise about its vertical axis as seen from above, then stood on the world's up axis.
+/// Takes world directions to the source's own frame. The environment is first mirrored left to right (x ->
+/// -x), then turned counter-clockwise about its vertical axis as seen from above, then stood on the world's
+/// up axis.
 glm::dmat3 world_to_source(const ProbeParams& params) {
     const pbr::SinCos turn = pbr::sin_cos_pi(params.rotate_deg / 180);
     // Columns are the images of the source's axes.
@@ -45,7 +46,8 @@ Environment::Environment(const ProbeParams& params, const SourceImage& source) {
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x) {
                 // Multiples of 90 degrees take texel centres to texel centres.
-                const pbr::CubeTexel from = pbr::cubemap_texel(turn * pbr::cubemap_texel_direction({face, x, y}, n), n);
+                const pbr::CubeTexel from =
+                    pbr::cubemap_texel(turn * pbr::cubemap_texel_direction({face, x, y}, n), n);
                 std::copy_n(source.image.texel(0, from.face, from.y, from.x), 3,
                             &permuted_[((static_cast<std::size_t>(face) * n + y) * n + x) * 3]);
             }

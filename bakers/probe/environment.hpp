@@ -12,8 +12,8 @@
 
 namespace pbrbake::probe {
 
-/// An equirect or a cube map in the frame of the output. An equirect is turned by its matrix and stays where it is in
-/// memory (the SourceImage must outlive this); a cube map is permuted once, which is exact.
+/// An equirect or a cube map in the frame of the output. An equirect is turned by its matrix and stays where
+/// it is in memory (the SourceImage must outlive this); a cube map is permuted once, which is exact.
 class Environment {
   public:
     Environment(const ProbeParams& params, const SourceImage& source);
@@ -28,7 +28,8 @@ class Environment {
     /// Radiance times solid angle over all texels and channels.
     double energy() const;
 
-    /// One row of a face of a cube of `size`: the mean over each texel where texels grow, bilinear where they shrink.
+    /// One row of a face of a cube of `size`: the mean over each texel where texels grow, bilinear where they
+    /// shrink.
     void resample_row(int size, int face, int y, std::span<float> rgb_out) const;
 
     /// The mean over each texel, whatever the size.

@@ -48,7 +48,11 @@ fs::path temporary_name(const fs::path& file) {
     static std::atomic<unsigned> count{0};
     std::string name = ".";
     name += file.filename().string();
-    name.append(".").append(std::to_string(::getpid())).append("-").append(std::to_string(count++)).append(".tmp");
+    name.append(".")
+        .append(std::to_string(::getpid()))
+        .append("-")
+        .append(std::to_string(count++))
+        .append(".tmp");
     return file.parent_path() / name;
 }
 

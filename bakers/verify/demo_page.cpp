@@ -238,7 +238,7 @@ std::string DemoPage::cost() const {
            "tiles of "
            "texels chosen by hash with the exact sum over all source texels; its interval "
            "takes the tiles' errors for normally distributed, so with few tiles and one small sun it can "
-           "miss. Level 0 is the mirror: no lobe, no sampling, no error figure.</p>\n";
+           "miss. Level 0 is the mirror: its error is what storing it changed.</p>\n";
 }
 
 std::string DemoPage::balls(const Environment& environment) const {
@@ -277,7 +277,7 @@ std::string DemoPage::level_table(const Environment& environment) const {
     for (const Probe& probe : environment.probes) heads.push_back("certificate, " + probe.title);
     for (std::size_t i = 0; i + 1 < environment.probes.size(); ++i)
         heads.push_back(environment.probes[i].title + " from " + environment.best().title + ", all texels");
-    heads.push_back("energy against level 0");
+    heads.push_back("energy against the source");
     Table table(heads);
     for (int level = 0; level < environment.levels(); ++level) {
         const Json& facts = environment.best().report->entry["levels"][static_cast<std::size_t>(level)];

@@ -39,7 +39,8 @@ void DfgTable128MonteCarlo(benchmark::State& state) {
     const auto method = pbr::DfgMethod::importance_sampling(static_cast<int>(state.range(0)), 0);
     for (auto _ : state)
         for (int i = 0; i < 128 * 128; ++i)
-            benchmark::DoNotOptimize(pbr::dfg_ggx((i % 128 + 0.5) / 128, std::pow((i / 128 + 0.5) / 128, 2), method));
+            benchmark::DoNotOptimize(
+                pbr::dfg_ggx((i % 128 + 0.5) / 128, std::pow((i / 128 + 0.5) / 128, 2), method));
 }
 BENCHMARK(DfgTable128MonteCarlo)->Arg(64)->Arg(1024)->Unit(benchmark::kMillisecond);
 
@@ -67,8 +68,9 @@ void LdSampledLevel(benchmark::State& state) {
         benchmark::DoNotOptimize(row.data());
         ++at;
     }
-    state.counters["ns/sample"] = benchmark::Counter(static_cast<double>(state.iterations()) * 128 * static_cast<double>(state.range(0)) * 1e-9,
-                                                     benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["ns/sample"] = benchmark::Counter(
+        static_cast<double>(state.iterations()) * 128 * static_cast<double>(state.range(0)) * 1e-9,
+        benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(LdSampledLevel)->Arg(32)->Arg(1024);
 
@@ -80,9 +82,10 @@ void LdExactRow(benchmark::State& state) {
     for (int x = 0; x < 128; ++x) directions.push_back(pbr::cubemap_texel_direction({0, x, 64}, 128));
     std::vector<double> rgb(128 * 3);
     std::uint64_t evaluations = 0;
-    for (auto _ : state) pbr::ld_exact(blocks, static_cast<double>(state.range(0)) / 1000, directions, rgb, evaluations);
-    state.counters["ns/evaluation"] = benchmark::Counter(static_cast<double>(evaluations) * 1e-9,
-                                                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    for (auto _ : state)
+        pbr::ld_exact(blocks, static_cast<double>(state.range(0)) / 1000, directions, rgb, evaluations);
+    state.counters["ns/evaluation"] = benchmark::Counter(
+        static_cast<double>(evaluations) * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(LdExactRow)->Arg(10)->Arg(40)->Arg(360)->Arg(1000)->Unit(benchmark::kMillisecond);
 

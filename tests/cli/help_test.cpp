@@ -13,8 +13,13 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST(Help, FitsEightyColumns) {
-    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-             {"--help"}, {"bake", "--help"}, {"dfg", "--help"}, {"probe", "-h"}, {"inspect", "--help"}, {"demo", "--help"}}) {
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"--help"},
+                                               {"bake", "--help"},
+                                               {"dfg", "--help"},
+                                               {"probe", "-h"},
+                                               {"inspect", "--help"},
+                                               {"demo", "--help"}}) {
         const Outcome outcome = run_program(arguments);
         EXPECT_EQ(outcome.code, 0);
         EXPECT_EQ(outcome.err, "");
@@ -29,7 +34,8 @@ TEST(Help, FitsEightyColumns) {
 
 TEST(Help, ListsCommandsAndFlags) {
     const std::string commands = run_program({"--help"}).out;
-    for (const char* command : {"bake", "dfg", "probe", "inspect", "demo"}) EXPECT_THAT(commands, HasSubstr(command));
+    for (const char* command : {"bake", "dfg", "probe", "inspect", "demo"})
+        EXPECT_THAT(commands, HasSubstr(command));
     EXPECT_THAT(run_program({"dfg", "--help"}).out, HasSubstr("--roughness-axis perceptual|alpha"));
 }
 

@@ -14,7 +14,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace pbrbake;
     static const std::string file =
-        (std::filesystem::temp_directory_path() / ("job_fuzz_" + std::to_string(getpid()) + ".json")).string();
+        (std::filesystem::temp_directory_path() / ("job_fuzz_" + std::to_string(getpid()) + ".json"))
+            .string();
     std::FILE* stream = std::fopen(file.c_str(), "wb");
     if (!stream || std::fwrite(data, 1, size, stream) != size) std::abort();
     std::fclose(stream);

@@ -9,7 +9,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace pbrbake;
     try {
-        const io::ReadBack back = io::read_ktx2_product({reinterpret_cast<const std::byte*>(data), size}, "fuzz.ktx2");
+        const io::ReadBack back =
+            io::read_ktx2_product({reinterpret_cast<const std::byte*>(data), size}, "fuzz.ktx2");
         if (back.image.levels.empty() || back.image.levels[0].texels.empty()) std::abort();
     } catch (const Error&) {
     }

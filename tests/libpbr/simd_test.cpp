@@ -42,7 +42,8 @@ Results run_kernels() {
         results.dfg.insert(results.dfg.end(), Fc.begin(), Fc.end());
     }
     std::vector<float> cube(std::size_t{16} * 16 * 18);
-    for (std::size_t i = 0; i < cube.size(); ++i) cube[i] = static_cast<float>(std::pow(random_unit(1, i), 6));
+    for (std::size_t i = 0; i < cube.size(); ++i)
+        cube[i] = static_cast<float>(std::pow(random_unit(1, i), 6));
     std::vector<CubeTexel> texels;
     std::vector<glm::dvec3> directions;
     for (int i = 0; i < 50; ++i) {
@@ -52,7 +53,8 @@ Results run_kernels() {
     const CubePyramid pyramid(cube, 16);
     for (const int count : {1, 37, 300}) {  // not multiples of any width
         std::vector<float> rgb(150);
-        ld_sampled(pyramid, make_ld_samples(LdEstimator::filtered_importance_sampling, 0.2, count, 16, 1), 3, 8, texels, rgb);
+        ld_sampled(pyramid, make_ld_samples(LdEstimator::filtered_importance_sampling, 0.2, count, 16, 1), 3,
+                   8, texels, rgb);
         results.sampled.insert(results.sampled.end(), rgb.begin(), rgb.end());
     }
     results.exact.resize(150);

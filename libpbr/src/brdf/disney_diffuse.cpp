@@ -7,10 +7,12 @@
 namespace pbr {
 namespace {
 
-/// Albedo of (1/pi)(1 + g a)(1 + g b) with a, b Schlick's weights of NoL, NoV and g = f90 - 1, f90 = base + 2 r LoH^2.
+/// Albedo of (1/pi)(1 + g a)(1 + g b) with a, b Schlick's weights of NoL, NoV and g = f90 - 1, f90 = base + 2
+/// r LoH^2.
 ///
-/// LoH^2 = (1 + LoV)/2 and LoV = NoL NoV + sinL sinV cos(phi), so g = g0 + g1 cos(phi), and the mean over phi of
-/// (1 + g a)(1 + g b) is 1 + (a + b) g0 + a b (g0^2 + g1^2 / 2): a polynomial of degree 7 in NoL, 8 with the cosine.
+/// LoH^2 = (1 + LoV)/2 and LoV = NoL NoV + sinL sinV cos(phi), so g = g0 + g1 cos(phi), and the mean over phi
+/// of (1 + g a)(1 + g b) is 1 + (a + b) g0 + a b (g0^2 + g1^2 / 2): a polynomial of degree 7 in NoL, 8 with
+/// the cosine.
 double albedo(double NoV, double perceptual_roughness, double base) {
     static const QuadratureRule rule = gauss_legendre(5);  // exact to degree 9
     const double b = schlick_weight(NoV);

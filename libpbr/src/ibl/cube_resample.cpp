@@ -25,16 +25,19 @@ void resample_area(const CubeView& source, int size, int face, int y, std::span<
     for (int x = 0; x < size; ++x) {
         const Overlap columns = overlap(x, size, source.size);
         float* out = &rgb_out[static_cast<std::size_t>(x) * 3];
-        if (rows.first == rows.last && columns.first == columns.last) {  // within one texel: its value, bit for bit
+        if (rows.first == rows.last &&
+            columns.first == columns.last) {  // within one texel: its value, bit for bit
             std::copy_n(source.texel(face, columns.first, rows.first), 3, out);
             continue;
         }
         double sum[3] = {0, 0, 0}, solid_angle = 0;
         for (int j = rows.first; j <= rows.last; ++j)
             for (int i = columns.first; i <= columns.last; ++i) {
-                const double piece = cube_rectangle_solid_angle(
-                    std::max(edge(x, size), edge(i, source.size)), std::min(edge(x + 1, size), edge(i + 1, source.size)),
-                    std::max(edge(y, size), edge(j, source.size)), std::min(edge(y + 1, size), edge(j + 1, source.size)));
+                const double piece =
+                    cube_rectangle_solid_angle(std::max(edge(x, size), edge(i, source.size)),
+                                               std::min(edge(x + 1, size), edge(i + 1, source.size)),
+                                               std::max(edge(y, size), edge(j, source.size)),
+                                               std::min(edge(y + 1, size), edge(j + 1, source.size)));
                 const float* texel = source.texel(face, i, j);
                 for (int c = 0; c < 3; ++c) sum[c] += piece * static_cast<double>(texel[c]);
                 solid_angle += piece;
@@ -51,7 +54,9 @@ void resample_bilinear(const CubeView& source, int size, int face, int y, std::s
         const CubeTexel texel = cubemap_neighbour(face, i, j, source.size);
         return source.texel(texel.face, texel.x, texel.y);
     };
-    const auto position = [&](int index) { return (cube_coordinate(index, size) + 1) / 2 * source.size - 0.5; };
+    const auto position = [&](int index) {
+        return (cube_coordinate(index, size) + 1) / 2 * source.size - 0.5;
+    };
     const double py = position(y);
     const int j = static_cast<int>(std::floor(py));
     const double fy = py - j;

@@ -13,8 +13,9 @@ int texel_index(double coordinate, int size) {
 }
 
 /// Solid angle of the triangle (a, b, c) in the plane z = 1, given twice its area (its determinant there).
-double triangle_solid_angle(const double (&a)[2], const double (&b)[2], const double (&c)[2], double twice_area) {
-    const auto dot = [](const double (&p)[2], const double (&q)[2]) { return 1 + p[0] * q[0] + p[1] * q[1]; };
+double triangle_solid_angle(const double (&a)[2], const double (&b)[2], const double (&c)[2],
+                            double twice_area) {
+    const auto dot = [](const double(&p)[2], const double(&q)[2]) { return 1 + p[0] * q[0] + p[1] * q[1]; };
     const double la = std::sqrt(dot(a, a)), lb = std::sqrt(dot(b, b)), lc = std::sqrt(dot(c, c));
     return 2 * atan2_exact(twice_area, la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la);
 }

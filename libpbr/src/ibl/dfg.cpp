@@ -13,7 +13,8 @@
 namespace pbr {
 namespace {
 
-/// Node counts and the largest error they leave, found by tests/libpbr/ibl/dfg_test.cpp over the whole domain.
+/// Node counts and the largest error they leave, found by tests/libpbr/ibl/dfg_test.cpp over the whole
+/// domain.
 struct RuleSize {
     double max_error;
     int azimuth;
@@ -53,10 +54,11 @@ DfgRule dfg_rule(double max_error) {
 
 void dfg_ggx_row(std::span<const double> NoV, double alpha, const DfgMethod& method, std::span<double> E,
                  std::span<double> Fc) {
-    if (alpha > 0 && method.estimator == DfgEstimator::quadrature) return dfg_quadrature_row(NoV, alpha, method.rule, E, Fc);
+    if (alpha > 0 && method.estimator == DfgEstimator::quadrature)
+        return dfg_quadrature_row(NoV, alpha, method.rule, E, Fc);
     for (std::size_t i = 0; i < NoV.size(); ++i) {
-        const DirectionalAlbedo albedo =
-            alpha > 0 ? importance_sampled(NoV[i], alpha, method) : DirectionalAlbedo{1, schlick_weight(NoV[i])};
+        const DirectionalAlbedo albedo = alpha > 0 ? importance_sampled(NoV[i], alpha, method)
+                                                   : DirectionalAlbedo{1, schlick_weight(NoV[i])};
         E[i] = albedo.E;
         Fc[i] = albedo.Fc;
     }

@@ -36,7 +36,8 @@ class RowTable {
     /// Abramowitz & Stegun 4.4.45, error below 7e-5: a first guess, corrected by the table.
     static double approximate_acos(double z) {
         const double a = std::min(1.0, std::abs(z));
-        const double angle = std::sqrt(1 - a) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - a * 0.0187293)));
+        const double angle =
+            std::sqrt(1 - a) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - a * 0.0187293)));
         return z < 0 ? kPi - angle : angle;
     }
     std::vector<double> cosines_;
@@ -70,17 +71,22 @@ class TexelQuad {
     }
 
     /// Longitudes at which the quad's outline has a corner, ascending; the first and last bound it.
-    std::span<const double> longitudes() const { return {longitudes_.data(), static_cast<std::size_t>(count_)}; }
+    std::span<const double> longitudes() const {
+        return {longitudes_.data(), static_cast<std::size_t>(count_)};
+    }
 
-    /// On a meridian, colatitude theta is inside where n . (sin theta m + cos theta y) >= 0 for the four edges, so each
-    /// edge bounds cot(theta) from one side.
+    /// On a meridian, colatitude theta is inside where n . (sin theta m + cos theta y) >= 0 for the four
+    /// edges, so each edge bounds cot(theta) from one side.
     MeridianSpan span(double sine, double cosine) const {
         double low = -1e300, high = 1e300;
         for (const glm::dvec3& n : normals_) {
             const double along = n.x * sine + n.z * cosine;
-            if (n.y > 1e-14) low = std::max(low, -along / n.y);
-            else if (n.y < -1e-14) high = std::min(high, -along / n.y);
-            else if (along < 0) return {0, 0};
+            if (n.y > 1e-14)
+                low = std::max(low, -along / n.y);
+            else if (n.y < -1e-14)
+                high = std::min(high, -along / n.y);
+            else if (along < 0)
+                return {0, 0};
         }
         if (low >= high) return {0, 0};
         const auto cosine_of_cot = [](double c) {
@@ -90,15 +96,18 @@ class TexelQuad {
     }
 
   private:
-    void find_longitudes(const glm::dvec3& centre, const std::array<glm::dvec3, 4>& corners, bool holds_pole) {
+    void find_longitudes(const glm::dvec3& centre, const std::array<glm::dvec3, 4>& corners,
+                         bool holds_pole) {
         const double middle = atan2_exact(centre.x, centre.z);
         for (const glm::dvec3& corner : corners) {
-            if (corner.x * corner.x + corner.z * corner.z < 1e-20) continue;  // at a pole: no longitude of its own
+            if (corner.x * corner.x + corner.z * corner.z < 1e-20)
+                continue;  // at a pole: no longitude of its own
             double longitude = atan2_exact(corner.x, corner.z);
             if (longitude < middle - kPi) longitude += 2 * kPi;
             if (longitude > middle + kPi) longitude -= 2 * kPi;
             int place = count_++;
-            for (; place > 0 && longitudes_[place - 1] > longitude; --place) longitudes_[place] = longitudes_[place - 1];
+            for (; place > 0 && longitudes_[place - 1] > longitude; --place)
+                longitudes_[place] = longitudes_[place - 1];
             longitudes_[place] = longitude;
         }
         if (holds_pole) {
@@ -121,7 +130,8 @@ class AreaIntegral {
         if (to - from < 1e-15) return;
         // The piece's middle tells the column; u = 1/2 - longitude / 2 pi.
         const double u = 0.5 - (from + to) / (4 * kPi);
-        const int column = std::clamp(static_cast<int>((u - std::floor(u)) * source_.width), 0, source_.width - 1);
+        const int column =
+            std::clamp(static_cast<int>((u - std::floor(u)) * source_.width), 0, source_.width - 1);
         static const QuadratureRule rule = gauss_legendre(3);
         for (int i = 0; i < rule.size(); ++i) {
             const SinCos longitude = sin_cos_pi((from + (to - from) * rule.nodes[i]) / kPi);
@@ -202,7 +212,8 @@ void resample_bilinear(const EquirectView& source, int size, int face, int y, st
         return source.texel(i < 0 ? i + source.width : i, j);
     };
     for (int x = 0; x < size; ++x) {
-        const glm::dvec2 uv = equirect_point(source.world_to_source * cubemap_texel_direction({face, x, y}, size));
+        const glm::dvec2 uv =
+            equirect_point(source.world_to_source * cubemap_texel_direction({face, x, y}, size));
         const double px = uv.x * source.width - 0.5, py = uv.y * source.height - 0.5;
         const int i = static_cast<int>(std::floor(px)), j = static_cast<int>(std::floor(py));
         const double fx = px - i, fy = py - j;

@@ -13,7 +13,8 @@
 namespace pbr {
 
 CubePyramid::CubePyramid(std::span<const float> rgb, int size) : size_(size) {
-    assert(size > 0 && size <= 4096 && (size & (size - 1)) == 0 && rgb.size() == static_cast<std::size_t>(size) * size * 18);
+    assert(size > 0 && size <= 4096 && (size & (size - 1)) == 0 &&
+           rgb.size() == static_cast<std::size_t>(size) * size * 18);
     std::size_t total = 0;
     for (int n = size; n >= 1; n /= 2) {
         offsets_.push_back(static_cast<std::int32_t>(total));
@@ -21,24 +22,28 @@ CubePyramid::CubePyramid(std::span<const float> rgb, int size) : size_(size) {
     }
     texels_.resize(total);
     const auto at = [&](int level, int f, int x, int y) {
-        return const_cast<float*>(face(level, f)) + ((static_cast<std::size_t>(y) + 1) * (size_of(level) + 2) + x + 1) * 4;
+        return const_cast<float*>(face(level, f)) +
+               ((static_cast<std::size_t>(y) + 1) * (size_of(level) + 2) + x + 1) * 4;
     };
     for (int f = 0; f < 6; ++f)
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x)
-                std::copy_n(&rgb[((static_cast<std::size_t>(f) * size + y) * size + x) * 3], 3, at(0, f, x, y));
+                std::copy_n(&rgb[((static_cast<std::size_t>(f) * size + y) * size + x) * 3], 3,
+                            at(0, f, x, y));
     for (int level = 1; level < levels(); ++level) {
         const int n = size_of(level);
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x) {
                 double weights[4], total_weight = 0;
                 for (int k = 0; k < 4; ++k)
-                    total_weight += weights[k] = cubemap_texel_solid_angle(2 * n, 2 * x + (k & 1), 2 * y + (k >> 1));
+                    total_weight += weights[k] =
+                        cubemap_texel_solid_angle(2 * n, 2 * x + (k & 1), 2 * y + (k >> 1));
                 for (int f = 0; f < 6; ++f)
                     for (int c = 0; c < 3; ++c) {
                         double sum = 0;
                         for (int k = 0; k < 4; ++k)
-                            sum += weights[k] * static_cast<double>(at(level - 1, f, 2 * x + (k & 1), 2 * y + (k >> 1))[c]);
+                            sum += weights[k] * static_cast<double>(
+                                                    at(level - 1, f, 2 * x + (k & 1), 2 * y + (k >> 1))[c]);
                         at(level, f, x, y)[c] = static_cast<float>(sum / total_weight);
                     }
             }
@@ -84,7 +89,9 @@ glm::vec3 CubePyramid::sample(const glm::vec3& direction, float lod) const {
         const double fx = px - ix, fy = py - iy;
         const float* p = face(level, point.face) + (static_cast<std::size_t>(iy) * (n + 2) + ix) * 4;
         const float* q = p + (n + 2) * 4;
-        const double weight = level == first && first + 1 < levels() ? 1 - (clamped - first) : level == first ? 1 : clamped - first;
+        const double weight = level == first && first + 1 < levels() ? 1 - (clamped - first)
+                              : level == first                       ? 1
+                                                                     : clamped - first;
         for (int c = 0; c < 3; ++c) {
             const double top = p[c] + fx * (static_cast<double>(p[c + 4]) - p[c]);
             const double bottom = q[c] + fx * (static_cast<double>(q[c + 4]) - q[c]);
@@ -116,18 +123,23 @@ LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int ba
         samples.lod.push_back(static_cast<float>(lod));
     }
     const std::size_t padded = (static_cast<std::size_t>(count) + 15) / 16 * 16;
-    for (std::vector<float>* array : {&samples.x, &samples.y, &samples.z, &samples.lod}) array->resize(padded, array->back());
+    for (std::vector<float>* array : {&samples.x, &samples.y, &samples.z, &samples.lod})
+        array->resize(padded, array->back());
     return samples;
 }
 
-LdIntegrator::LdIntegrator(const LdMethod& method, double alpha, const PatchBlocks* source, const CubePyramid* pyramid)
+LdIntegrator::LdIntegrator(const LdMethod& method, double alpha, const PatchBlocks* source,
+                           const CubePyramid* pyramid)
     : method_(method), alpha_(alpha), source_(source), pyramid_(pyramid) {
     const bool exact = method.estimator == LdEstimator::exact;
     assert(exact ? source != nullptr : pyramid != nullptr && method.samples > 0);
-    if (!exact) samples_ = make_ld_samples(method.estimator, alpha, method.samples, pyramid->size(), method.level_bias);
+    if (!exact)
+        samples_ =
+            make_ld_samples(method.estimator, alpha, method.samples, pyramid->size(), method.level_bias);
 }
 
-std::uint64_t LdIntegrator::integrate(int size, std::span<const CubeTexel> texels, std::span<float> rgb_out) const {
+std::uint64_t LdIntegrator::integrate(int size, std::span<const CubeTexel> texels,
+                                      std::span<float> rgb_out) const {
     if (method_.estimator != LdEstimator::exact) {
         ld_sampled(*pyramid_, samples_, method_.seed, size, texels, rgb_out);
         return texels.size() * static_cast<std::uint64_t>(samples_.count);
@@ -137,7 +149,8 @@ std::uint64_t LdIntegrator::integrate(int size, std::span<const CubeTexel> texel
     std::vector<double> rgb(texels.size() * 3);
     std::uint64_t evaluations = 0;
     ld_exact(*source_, alpha_, directions, rgb, evaluations);
-    std::transform(rgb.begin(), rgb.end(), rgb_out.begin(), [](double value) { return static_cast<float>(value); });
+    std::transform(rgb.begin(), rgb.end(), rgb_out.begin(),
+                   [](double value) { return static_cast<float>(value); });
     return evaluations;
 }
 

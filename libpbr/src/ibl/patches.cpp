@@ -27,7 +27,8 @@ void PatchPoints::resize(std::size_t count) {
 }
 
 PatchBlocks::PatchBlocks(const EquirectView& source)
-    : equirect_(source), texel_angle_(std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height)) {
+    : equirect_(source),
+      texel_angle_(std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height)) {
     add_blocks(0, source.width, source.height);
 }
 
@@ -49,8 +50,8 @@ void PatchBlocks::add_blocks(int face, int width, int height) {
         for (int x = 0; x < width; x += kBlockSide) {
             Block block{face, x, y, std::min(kBlockSide, width - x), std::min(kBlockSide, height - y), {}};
             block.cone.axis = direction(face, x + block.width / 2.0, y + block.height / 2.0);
-            // A cell of a grid is not convex on the sphere, but no point of it is farther out than its outline by
-            // more than a texel.
+            // A cell of a grid is not convex on the sphere, but no point of it is farther out than its
+            // outline by more than a texel.
             double farthest = 0;
             for (int j = 0; j <= block.height; ++j)
                 for (int i = 0; i <= block.width; ++i) {
@@ -75,13 +76,16 @@ void PatchBlocks::points(int index, int order_index, PatchPoints& points) const 
 }
 
 void PatchBlocks::equirect_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const {
-    // The points are a product of longitudes and colatitudes: sines and cosines are taken along the axes alone.
+    // The points are a product of longitudes and colatitudes: sines and cosines are taken along the axes
+    // alone.
     const std::size_t order = static_cast<std::size_t>(rule.size());
     std::vector<SinCos> longitudes(order * block.width), colatitudes(order * block.height);
     for (std::size_t i = 0; i < longitudes.size(); ++i)
-        longitudes[i] = sin_cos_pi(1 - 2 * (block.x + static_cast<int>(i / order) + rule.nodes[i % order]) / equirect_.width);
+        longitudes[i] = sin_cos_pi(1 - 2 * (block.x + static_cast<int>(i / order) + rule.nodes[i % order]) /
+                                           equirect_.width);
     for (std::size_t i = 0; i < colatitudes.size(); ++i)
-        colatitudes[i] = sin_cos_pi((block.y + static_cast<int>(i / order) + rule.nodes[i % order]) / equirect_.height);
+        colatitudes[i] =
+            sin_cos_pi((block.y + static_cast<int>(i / order) + rule.nodes[i % order]) / equirect_.height);
     const glm::dmat3 to_world = glm::transpose(equirect_.world_to_source);  // it is orthogonal
 
     std::size_t at = 0;
@@ -123,7 +127,8 @@ void PatchBlocks::cube_points(const Block& block, const QuadratureRule& rule, Pa
                 for (int a = 0; a < rule.size(); ++a, ++at) {
                     const double s = 2 * (x + rule.nodes[a]) / n - 1, t = 2 * (y + rule.nodes[b]) / n - 1;
                     const double inverse_length = 1 / std::sqrt(1 + s * s + t * t);
-                    const double share = rule.weights[a] * rule.weights[b] * inverse_length * inverse_length * inverse_length;
+                    const double share =
+                        rule.weights[a] * rule.weights[b] * inverse_length * inverse_length * inverse_length;
                     const glm::dvec3 d = cube_vector(block.face, s, t) * inverse_length;
                     points.x[at] = static_cast<float>(d.x);
                     points.y[at] = static_cast<float>(d.y);

@@ -10,8 +10,8 @@
 namespace pbr {
 namespace {
 
-/// S(y) = (y/(1-y) + ln(1-y)) / y^2 = sum of y^n (n+1)/(n+2), given 1-y as well. The integral of m/(c - b m)^2 over
-/// [0, mu] is mu^2 S(b mu / c) / c^2: well conditioned for every alpha, its end at 1 included.
+/// S(y) = (y/(1-y) + ln(1-y)) / y^2 = sum of y^n (n+1)/(n+2), given 1-y as well. The integral of m/(c - b
+/// m)^2 over [0, mu] is mu^2 S(b mu / c) / c^2: well conditioned for every alpha, its end at 1 included.
 double tail_series(double y, double one_minus_y) {
     if (y >= 0.1) return (y / one_minus_y + log_exact(one_minus_y)) / (y * y);
     double sum = 0;
@@ -22,7 +22,10 @@ double tail_series(double y, double one_minus_y) {
 }  // namespace
 
 GgxZonalKernel::GgxZonalKernel(double alpha)
-    : alpha_(alpha), alpha2_(alpha * alpha), b_((1 - alpha2_) / 2), c_((1 + alpha2_) / 2),
+    : alpha_(alpha),
+      alpha2_(alpha * alpha),
+      b_((1 - alpha2_) / 2),
+      c_((1 + alpha2_) / 2),
       tail_at_one_(tail_series(b_ / c_, alpha2_ / c_)),
       normalisation_(c_ * c_ / (2 * std::numbers::pi * tail_at_one_)) {
     assert(alpha > 0 && alpha <= 1);
@@ -44,7 +47,8 @@ double GgxZonalKernel::cdf(double one_minus_mu) const {
 double GgxZonalKernel::sample(double u) const {
     if (u <= 0) return 0;
     if (u >= 1) return 1;
-    // Newton's method on the cdf, kept inside a shrinking bracket. It starts from the same lobe without its cosine.
+    // Newton's method on the cdf, kept inside a shrinking bracket. It starts from the same lobe without its
+    // cosine.
     double low = 0, high = 1;
     double x = std::min(0.5, alpha2_ * u / (1 - u));
     for (int iteration = 0; iteration < 200; ++iteration) {

@@ -27,12 +27,17 @@ SinCos sin_cos_taylor(double a) {
 
 SinCos sin_cos_pi(double x) {
     const double quarter_turns = std::nearbyint(2 * x);
-    const SinCos reduced = sin_cos_taylor((x - quarter_turns / 2) * std::numbers::pi);  // the difference is exact
+    const SinCos reduced =
+        sin_cos_taylor((x - quarter_turns / 2) * std::numbers::pi);  // the difference is exact
     switch (static_cast<int>(std::fmod(quarter_turns, 4.0)) & 3) {
-        case 0: return reduced;
-        case 1: return {reduced.cos, -reduced.sin};
-        case 2: return {-reduced.sin, -reduced.cos};
-        default: return {-reduced.cos, reduced.sin};
+        case 0:
+            return reduced;
+        case 1:
+            return {reduced.cos, -reduced.sin};
+        case 2:
+            return {-reduced.sin, -reduced.cos};
+        default:
+            return {-reduced.cos, reduced.sin};
     }
 }
 

@@ -30,7 +30,8 @@ QuadratureRule gauss_legendre(int n) {
     QuadratureRule rule{std::vector<double>(n), std::vector<double>(n)};
     if (n == 1) return {{0.5}, {1.0}};
     for (int i = 0; i < (n + 1) / 2; ++i) {
-        double x = sin_cos_pi((i + 0.75) / (n + 0.5)).cos;  // Tricomi's first approximation of the i-th largest root
+        double x =
+            sin_cos_pi((i + 0.75) / (n + 0.5)).cos;  // Tricomi's first approximation of the i-th largest root
         LegendreValue value = legendre(n, x);
         for (int iteration = 0; iteration < 8; ++iteration) {
             const double step = value.p / value.dp;

@@ -21,19 +21,21 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kFlush = 256;  // points summed in float before the sum moves on to double
 
-/// Adds k(n.d) * weight * radiance of all points to the group's sums. With its `normalisation`, k * weight is a share of
-/// the lobe: sums of radiances near the largest float don't overflow.
+/// Adds k(n.d) * weight * radiance of all points to the group's sums. With its `normalisation`, k * weight is
+/// a share of the lobe: sums of radiances near the largest float don't overflow.
 void add_block(const PatchPoints& points, float alpha2, float normalisation, LdGroup& group) {
     const hn::CappedTag<float, kLdGroup> d;
     using V = hn::Vec<decltype(d)>;
     const std::size_t lanes = hn::Lanes(d);
     // f = alpha^2 + (1 - alpha^2)/4 |n - d|^2 and mu = 1 - |n - d|^2 / 2 (see ibl/zonal_kernel.hpp).
-    const V a2 = hn::Set(d, alpha2), slope = hn::Set(d, (1 - alpha2) / 4), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
+    const V a2 = hn::Set(d, alpha2), slope = hn::Set(d, (1 - alpha2) / 4), one = hn::Set(d, 1.0f),
+            half = hn::Set(d, 0.5f);
     const V factor = hn::Set(d, normalisation);
     for (std::size_t first = 0; first < points.size(); first += kFlush) {
         const std::size_t last = std::min(points.size(), first + kFlush);
         for (std::size_t begin = 0; begin < kLdGroup; begin += lanes) {
-            const V nx = hn::Load(d, group.x + begin), ny = hn::Load(d, group.y + begin), nz = hn::Load(d, group.z + begin);
+            const V nx = hn::Load(d, group.x + begin), ny = hn::Load(d, group.y + begin),
+                    nz = hn::Load(d, group.z + begin);
             V r = hn::Zero(d), g = hn::Zero(d), b = hn::Zero(d), w = hn::Zero(d);
             for (std::size_t i = first; i < last; ++i) {
                 const V dx = hn::Sub(nx, hn::Set(d, points.x[i])), dy = hn::Sub(ny, hn::Set(d, points.y[i]));
@@ -41,14 +43,16 @@ void add_block(const PatchPoints& points, float alpha2, float normalisation, LdG
                 const V chord2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
                 const V mu = hn::Max(hn::Zero(d), hn::Sub(one, hn::Mul(half, chord2)));
                 const V f = hn::Add(a2, hn::Mul(slope, chord2));
-                const V k = hn::Div(hn::Mul(hn::Mul(mu, factor), hn::Set(d, points.weight[i])), hn::Mul(f, f));
+                const V k =
+                    hn::Div(hn::Mul(hn::Mul(mu, factor), hn::Set(d, points.weight[i])), hn::Mul(f, f));
                 r = hn::Add(r, hn::Mul(k, hn::Set(d, points.r[i])));
                 g = hn::Add(g, hn::Mul(k, hn::Set(d, points.g[i])));
                 b = hn::Add(b, hn::Mul(k, hn::Set(d, points.b[i])));
                 w = hn::Add(w, k);
             }
             HWY_ALIGN_MAX float out[kLdGroup];
-            for (const auto& [value, channel] : {std::pair{r, 0}, std::pair{g, 1}, std::pair{b, 2}, std::pair{w, 3}}) {
+            for (const auto& [value, channel] :
+                 {std::pair{r, 0}, std::pair{g, 1}, std::pair{b, 2}, std::pair{w, 3}}) {
                 hn::Store(value, d, out);
                 for (std::size_t lane = 0; lane < lanes; ++lane)
                     group.sum[channel][begin + lane] += static_cast<double>(out[lane]);
@@ -67,14 +71,16 @@ namespace {
 
 HWY_EXPORT(add_block);
 
-/// Points a texel needs at an angle from the lobe's axis: Gauss-Legendre over a texel of angle h converges once h is well
-/// below the distance of the kernel's poles, which is about hypot(2 alpha, angle).
+/// Points a texel needs at an angle from the lobe's axis: Gauss-Legendre over a texel of angle h converges
+/// once h is well below the distance of the kernel's poles, which is about hypot(2 alpha, angle).
 int order_index(double texel_angle, double alpha, double nearest_angle) {
     const double reach = texel_angle / std::sqrt(4 * alpha * alpha + nearest_angle * nearest_angle);
     if (reach < 0.02) return 0;
     const double wanted = 1.5 + 4 * reach;
     int index = 1;
-    while (index + 1 < static_cast<int>(std::size(PatchBlocks::kOrders)) && PatchBlocks::kOrders[index] < wanted) ++index;
+    while (index + 1 < static_cast<int>(std::size(PatchBlocks::kOrders)) &&
+           PatchBlocks::kOrders[index] < wanted)
+        ++index;
     return index;
 }
 
@@ -105,7 +111,8 @@ double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dv
     std::vector<LdGroup> groups(group_count);
     std::vector<Cone> cones(group_count);
     const auto of_group = [&](std::size_t g) {
-        return directions.subspan(g * kLdGroup, std::min<std::size_t>(kLdGroup, directions.size() - g * kLdGroup));
+        return directions.subspan(g * kLdGroup,
+                                  std::min<std::size_t>(kLdGroup, directions.size() - g * kLdGroup));
     };
     for (std::size_t g = 0; g < group_count; ++g) cones[g] = fill_group(of_group(g), groups[g]);
 
@@ -121,7 +128,8 @@ double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dv
             PatchPoints& points = by_order[static_cast<std::size_t>(index)];
             if (points.size() == 0) source.points(block, index, points);
             HWY_DYNAMIC_DISPATCH(add_block)
-            (points, static_cast<float>(alpha * alpha), static_cast<float>(kernel.normalisation()), groups[g]);
+            (points, static_cast<float>(alpha * alpha), static_cast<float>(kernel.normalisation()),
+             groups[g]);
             evaluations += points.size() * kLdGroup;
         }
     }

@@ -30,7 +30,9 @@ Product bake_table(const DfgParams& params, int threads = 1, Accuracy accuracy =
     return bake(params, {}, context);
 }
 
-float texel(const Product& product, int x, int y, int channel) { return product.images[0].texel(0, 0, y, x)[channel]; }
+float texel(const Product& product, int x, int y, int channel) {
+    return product.images[0].texel(0, 0, y, x)[channel];
+}
 
 /// The second witness: plain Gauss-Legendre over the sphere of light about the mirror direction, brute force.
 pbr::DirectionalAlbedo brute_force(double NoV, double alpha) {
@@ -39,7 +41,8 @@ pbr::DirectionalAlbedo brute_force(double NoV, double alpha) {
     const double sin_v = std::sqrt(1 - NoV * NoV);
     double E = 0, Fc = 0;
     // Polar angle from the mirror direction on a geometric ladder of panels, azimuth about it uniformly.
-    const double smallest = alpha * alpha * 1e-4, ratio = std::pow(std::numbers::pi / smallest, 1.0 / (kPanels - 1));
+    const double smallest = alpha * alpha * 1e-4,
+                 ratio = std::pow(std::numbers::pi / smallest, 1.0 / (kPanels - 1));
     double from = 0, to = smallest;
     constexpr int kAzimuths = 4096;
     for (int panel = 0; panel < kPanels; ++panel, from = to, to *= ratio)
@@ -47,14 +50,18 @@ pbr::DirectionalAlbedo brute_force(double NoV, double alpha) {
             const double t = std::min(from + (to - from) * rule.nodes[i], std::numbers::pi);
             for (int k = 0; k < kAzimuths; ++k) {
                 const double phi = (k + 0.5) * std::numbers::pi / kAzimuths;
-                // Mirror direction r = (-sin_v, 0, NoV); u = (NoV, 0, sin_v) and (0, 1, 0) complete its frame.
+                // Mirror direction r = (-sin_v, 0, NoV); u = (NoV, 0, sin_v) and (0, 1, 0) complete its
+                // frame.
                 const double lx = -sin_v * std::cos(t) + NoV * std::sin(t) * std::cos(phi);
-                const double ly = std::sin(t) * std::sin(phi), lz = NoV * std::cos(t) + sin_v * std::sin(t) * std::cos(phi);
+                const double ly = std::sin(t) * std::sin(phi),
+                             lz = NoV * std::cos(t) + sin_v * std::sin(t) * std::cos(phi);
                 if (lz <= 0) continue;
                 const double hx = lx + sin_v, hz = lz + NoV, length = std::sqrt(hx * hx + ly * ly + hz * hz);
-                const double sin2 = (hx * hx + ly * ly) / (length * length), VoH = (sin_v * hx + NoV * hz) / length;
-                const double value = pbr::D_ggx(hz / length, sin2, alpha) * pbr::V_smith_ggx_correlated(lz, NoV, alpha) * lz *
-                                     std::sin(t) * 2 * std::numbers::pi / kAzimuths * rule.weights[i] * (to - from);
+                const double sin2 = (hx * hx + ly * ly) / (length * length),
+                             VoH = (sin_v * hx + NoV * hz) / length;
+                const double value = pbr::D_ggx(hz / length, sin2, alpha) *
+                                     pbr::V_smith_ggx_correlated(lz, NoV, alpha) * lz * std::sin(t) * 2 *
+                                     std::numbers::pi / kAzimuths * rule.weights[i] * (to - from);
                 E += value;
                 Fc += value * pbr::schlick_weight(VoH);
             }
@@ -79,7 +86,8 @@ TEST(DfgBaker, TableOf128IsWithin1e6OfItsHighestAccuracyEverywhere) {
     const Product ours = bake_table(params), truth = bake_table(params, 1, {"reference", 0});
     double worst = 0;
     for (std::size_t i = 0; i < ours.images[0].levels[0].texels.size(); ++i)
-        worst = std::max(worst, std::abs(static_cast<double>(ours.images[0].levels[0].texels[i]) - truth.images[0].levels[0].texels[i]));
+        worst = std::max(worst, std::abs(static_cast<double>(ours.images[0].levels[0].texels[i]) -
+                                         truth.images[0].levels[0].texels[i]));
     EXPECT_LE(worst, 1e-6);
     EXPECT_GT(worst, 0);  // else nothing was compared
 }
@@ -97,10 +105,11 @@ TEST(DfgBaker, HoldsBoundsAtEveryLayout) {
                     params.terms = {Term::ggx, Term::disney_diffuse};
                     const Product product = bake_table(params);
                     const Level& level = product.images[0].levels[0];
-                    ASSERT_EQ(level.texels.size(), static_cast<std::size_t>(params.width()) * params.height() * 3);
+                    ASSERT_EQ(level.texels.size(),
+                              static_cast<std::size_t>(params.width()) * params.height() * 3);
                     for (std::size_t i = 0; i < level.texels.size(); i += 3) {
-                        ASSERT_GE(level.texels[i], 0);                            // E - Fc
-                        ASSERT_GE(level.texels[i + 1], 0);                        // Fc
+                        ASSERT_GE(level.texels[i], 0);                                // E - Fc
+                        ASSERT_GE(level.texels[i + 1], 0);                            // Fc
                         ASSERT_LE(level.texels[i] + level.texels[i + 1], 1.000001f);  // E
                         ASSERT_GE(level.texels[i + 2], 0);
                         ASSERT_LE(level.texels[i + 2], 1.0316f);
@@ -117,8 +126,8 @@ TEST(DfgBaker, LayoutFieldsMoveTexelsAsTheySay) {
     params = defaults();
     params.form = Form::mix;
     const Product mix = bake_table(params);
-    EXPECT_EQ(texel(mix, 3, 5, 0), texel(plain, 3, 5, 1));                                      // Fc
-    EXPECT_NEAR(texel(mix, 3, 5, 1), texel(plain, 3, 5, 0) + texel(plain, 3, 5, 1), 1e-7f);     // E
+    EXPECT_EQ(texel(mix, 3, 5, 0), texel(plain, 3, 5, 1));                                   // Fc
+    EXPECT_NEAR(texel(mix, 3, 5, 1), texel(plain, 3, 5, 0) + texel(plain, 3, 5, 1), 1e-7f);  // E
     params = defaults();
     params.align = Align::ends;
     EXPECT_EQ(nov_of_column(params, 0), 0);
@@ -126,7 +135,8 @@ TEST(DfgBaker, LayoutFieldsMoveTexelsAsTheySay) {
     EXPECT_EQ(perceptual_roughness_of_row(params, 15), 1);
     params.axis = Axis::sqrt_nov;
     EXPECT_DOUBLE_EQ(nov_of_column(params, 5), 25.0 / 225);
-    for (const double NoV : {0.0, 0.2, 1.0}) EXPECT_NEAR(nov_of_column(params, 0) + std::pow(column_of_nov(params, NoV) / 15, 2), NoV, 1e-12);
+    for (const double NoV : {0.0, 0.2, 1.0})
+        EXPECT_NEAR(nov_of_column(params, 0) + std::pow(column_of_nov(params, NoV) / 15, 2), NoV, 1e-12);
 }
 
 TEST(DfgBaker, ATermThatIsOffLeavesTheOtherColumnsAndCostsNothing) {
@@ -156,7 +166,8 @@ TEST(DfgBaker, SameBytesAtAnyThreadCount) {
         params.integrator = integrator;
         params.samples = 64;
         const Product one = bake_table(params, 1);
-        for (const int threads : {2, 7}) EXPECT_EQ(bake_table(params, threads).images[0].levels[0].texels, one.images[0].levels[0].texels);
+        for (const int threads : {2, 7})
+            EXPECT_EQ(bake_table(params, threads).images[0].levels[0].texels, one.images[0].levels[0].texels);
     }
 }
 

@@ -130,10 +130,12 @@ TEST(Job, NeverWritesOverWhatItReads) {
         {"kind": "probe", "name": "studio", "source": "studio.exr"},
         {"kind": "dfg", "name": "sky"},
         {"kind": "probe", "name": "b", "source": "sub/../sky.exr"}]})"),
-                ElementsAre(testing::AllOf(testing::StartsWith("/bakes/0/name"), testing::HasSubstr("studio.exr over the source")),
+                ElementsAre(testing::AllOf(testing::StartsWith("/bakes/0/name"),
+                                           testing::HasSubstr("studio.exr over the source")),
                             testing::StartsWith("/bakes/1/name")));
     const test::TemporaryFolder folder;
-    const fs::path file = folder.write("manifest.json", R"({"version": 1, "bakes": [{"kind": "dfg", "name": "a"}]})");
+    const fs::path file =
+        folder.write("manifest.json", R"({"version": 1, "bakes": [{"kind": "dfg", "name": "a"}]})");
     EXPECT_THROW(load(file), JobError);
     EXPECT_NO_THROW(loaded(R"({"version": 1, "output": "out", "bakes": [
         {"kind": "probe", "name": "studio", "source": "studio.exr"}]})"));

@@ -32,7 +32,8 @@ template <class F>
 Inputs equirect(int width, const F& f) {
     SourceImage source;
     source.image.channels = {"R", "G", "B"};
-    source.image.levels.push_back({width, width / 2, std::vector<float>(static_cast<std::size_t>(width) * (width / 2) * 3)});
+    source.image.levels.push_back(
+        {width, width / 2, std::vector<float>(static_cast<std::size_t>(width) * (width / 2) * 3)});
     for (int y = 0; y < width / 2; ++y)
         for (int x = 0; x < width; ++x) {
             const glm::dvec3 value = f(pbr::equirect_direction((x + 0.5) / width, (y + 0.5) / (width / 2)));
@@ -47,7 +48,8 @@ Inputs noise_cube(int size) {
     SourceImage source;
     source.image.channels = {"R", "G", "B"};
     source.image.faces = 6;
-    source.image.levels.push_back({size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)});
+    source.image.levels.push_back(
+        {size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)});
     std::vector<float>& texels = source.image.levels[0].texels;
     for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<float>(pbr::random_unit(5, i));
     return {{"source", std::move(source)}};
@@ -67,7 +69,9 @@ double worst_at_level_0(const Product& product, const F& f) {
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x) {
                 const glm::dvec3 expected = f(pbr::cubemap_texel_direction({face, x, y}, n));
-                for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(product.images[0].texel(0, face, y, x)[c] - expected[c]));
+                for (int c = 0; c < 3; ++c)
+                    worst =
+                        std::max(worst, std::abs(product.images[0].texel(0, face, y, x)[c] - expected[c]));
             }
     return worst;
 }
@@ -95,20 +99,30 @@ TEST(ProbeBaker, OrientationFollowsTheDocumentedFrame) {
     EXPECT_LT(worst_at_level_0(bake_probe(params, equirect(256, axes_picture)), axes_picture), 0.02);
     params.rotate_deg = 90;  // counter-clockwise from above: what was at +z comes to +x
     EXPECT_LT(worst_at_level_0(bake_probe(params, equirect(256, axes_picture)),
-                               [](const glm::dvec3& d) { return axes_picture({-d.z, d.y, d.x}); }), 0.02);
+                               [](const glm::dvec3& d) {
+                                   return axes_picture({-d.z, d.y, d.x});
+                               }),
+              0.02);
     params.rotate_deg = 0;
     params.mirror = true;
     EXPECT_LT(worst_at_level_0(bake_probe(params, equirect(256, axes_picture)),
-                               [](const glm::dvec3& d) { return axes_picture({-d.x, d.y, d.z}); }), 0.02);
+                               [](const glm::dvec3& d) {
+                                   return axes_picture({-d.x, d.y, d.z});
+                               }),
+              0.02);
     params.mirror = false;
     params.up = Up::z;  // the picture's up is the world's +z
     EXPECT_LT(worst_at_level_0(bake_probe(params, equirect(256, axes_picture)),
-                               [](const glm::dvec3& d) { return axes_picture({d.x, d.z, -d.y}); }), 0.02);
+                               [](const glm::dvec3& d) {
+                                   return axes_picture({d.x, d.z, -d.y});
+                               }),
+              0.02);
 }
 
 TEST(ProbeBaker, CubeSourceOfTheSameSizeKeepsLevel0BitExact) {
     const Inputs inputs = noise_cube(32);
-    EXPECT_EQ(bake_probe(defaults(), inputs).images[0].levels[0].texels, inputs.at("source").image.levels[0].texels);
+    EXPECT_EQ(bake_probe(defaults(), inputs).images[0].levels[0].texels,
+              inputs.at("source").image.levels[0].texels);
 }
 
 TEST(ProbeBaker, CubeSourceTurnsByQuartersExactlyAndByNothingElse) {
@@ -142,7 +156,8 @@ TEST(ProbeBaker, EveryIntegratorKeepsAConstantEnvironmentConstant) {
     for (const Integrator integrator : {Integrator::is, Integrator::fis, Integrator::reference}) {
         ProbeParams params = defaults();
         params.integrator = integrator;
-        const Product product = bake_probe(params, equirect(32, [](const glm::dvec3&) { return glm::dvec3(0.5, 7, 1e-4); }));
+        const Product product =
+            bake_probe(params, equirect(32, [](const glm::dvec3&) { return glm::dvec3(0.5, 7, 1e-4); }));
         for (const Level& level : product.images[0].levels)
             for (std::size_t i = 0; i < level.texels.size(); i += 3) {
                 ASSERT_NEAR(level.texels[i], 0.5f, 0.5f * 1e-5f);
@@ -186,7 +201,8 @@ TEST(ProbeBaker, SameBytesAtAnyThreadCount) {
         const Product one = bake_probe(params, inputs, 1);
         for (const int threads : {2, 7}) {
             const Product many = bake_probe(params, inputs, threads);
-            for (std::size_t l = 0; l < 4; ++l) EXPECT_EQ(many.images[0].levels[l].texels, one.images[0].levels[l].texels);
+            for (std::size_t l = 0; l < 4; ++l)
+                EXPECT_EQ(many.images[0].levels[l].texels, one.images[0].levels[l].texels);
         }
     }
 }
@@ -244,7 +260,8 @@ TEST(ProbeParamsCheck, RefusesSizesThatAnExrCubeCannotHalve) {
 }
 
 TEST(ProbeCertificate, IntervalHoldsTheFullMeasurement) {
-    const Inputs inputs = equirect(64, [](const glm::dvec3& d) { return glm::dvec3(1 + d.x, d.y > 0 ? 3 : 0.5, d.z > 0.8 ? 5 : 0.1); });
+    const Inputs inputs = equirect(
+        64, [](const glm::dvec3& d) { return glm::dvec3(1 + d.x, d.y > 0 ? 3 : 0.5, d.z > 0.8 ? 5 : 0.1); });
     const ProbeParams params = defaults();
     const Product product = bake_probe(params, inputs);
     Context sampled_context(2, {}), full_context(2, {});
@@ -280,7 +297,8 @@ TEST(ProbeCertificate, FindsPlantedErrors) {
     for (float& value : dimmed.images[0].levels[2].texels) value *= 0.98f;
     for (float& value : mirror_off.images[0].levels[0].texels) value *= 1.02f;
     auto& texels = swapped.images[0].levels[1].texels;
-    std::swap_ranges(texels.begin(), texels.begin() + 16 * 16 * 3, texels.begin() + 16 * 16 * 3);  // +X and -X
+    std::swap_ranges(texels.begin(), texels.begin() + 16 * 16 * 3,
+                     texels.begin() + 16 * 16 * 3);  // +X and -X
     for (const Product* broken : {&dimmed, &mirror_off, &swapped}) EXPECT_GT(headline(*broken), 0.015);
 }
 
@@ -326,7 +344,8 @@ TEST(Builtin, OutdoorSunHasItsIlluminanceAndLuminance) {
             const double cosine = d.x * sun.x + d.y * sun.y + d.z * sun.z;
             if (luminance < 1e6) continue;  // the sun's texels alone
             lux += luminance * cosine * 2 * std::numbers::pi / level.width *
-                   (std::cos(std::numbers::pi * y / level.height) - std::cos(std::numbers::pi * (y + 1) / level.height));
+                   (std::cos(std::numbers::pi * y / level.height) -
+                    std::cos(std::numbers::pi * (y + 1) / level.height));
         }
     EXPECT_NEAR(lux, 100'000, 200);      // 100 klx, and the sky behind the disk
     EXPECT_NEAR(peak, 1.472e9, 0.02e9);  // texels wholly inside the disk
@@ -343,9 +362,11 @@ TEST(Builtin, OutdoorBakesIntoHalfWithoutInfAndEqualsFloatAfterScaling) {
     EXPECT_EQ(std::exp2(std::round(std::log2(scale))), scale);  // a power of two
     for (std::size_t l = 0; l < exact.images[0].levels.size(); ++l)
         for (std::size_t i = 0; i < exact.images[0].levels[l].texels.size(); ++i) {
-            const double stored = half.images[0].levels[l].texels[i], value = exact.images[0].levels[l].texels[i] * scale;
+            const double stored = half.images[0].levels[l].texels[i],
+                         value = exact.images[0].levels[l].texels[i] * scale;
             ASSERT_TRUE(std::isfinite(stored));
-            ASSERT_LE(std::abs(stored - value), std::max(value * 0x1p-11, 0x1p-25));  // half's rounding, subnormals included
+            ASSERT_LE(std::abs(stored - value),
+                      std::max(value * 0x1p-11, 0x1p-25));  // half's rounding, subnormals included
         }
 }
 

@@ -30,34 +30,41 @@ double albedo_by_directions(const Brdf& f, double NoV, double perceptual_roughne
 TEST(DisneyDiffuse, ClosedFormAlbedoAgreesWithQuadratureOverDirections) {
     for (const double r : {0.0, 0.3, 0.5, 1.0})
         for (const double NoV : {0.0, 0.1, 0.5, 1.0}) {
-            EXPECT_NEAR(albedo_disney_diffuse(NoV, r), albedo_by_directions(f_disney_diffuse<double>, NoV, r), 1e-13);
+            EXPECT_NEAR(albedo_disney_diffuse(NoV, r), albedo_by_directions(f_disney_diffuse<double>, NoV, r),
+                        1e-13);
             EXPECT_NEAR(albedo_disney_diffuse_original(NoV, r),
                         albedo_by_directions(f_disney_diffuse_original<double>, NoV, r), 1e-13);
         }
 }
 
 TEST(DisneyDiffuse, HasThePublishedAlbedos) {
-    const double expected[3][4] = {{0, .390, .923, .952}, {.620, .719, .822, .826}, {1.0315, .914, .700, .686}};
+    const double expected[3][4] = {
+        {0, .390, .923, .952}, {.620, .719, .822, .826}, {1.0315, .914, .700, .686}};
     const double roughness[] = {0, .5, 1}, NoV[] = {0, .1, .5, 1};
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 4; ++j)
-            EXPECT_NEAR(albedo_disney_diffuse(NoV[j], roughness[i]), expected[i][j], 6e-4) << roughness[i] << " " << NoV[j];
+            EXPECT_NEAR(albedo_disney_diffuse(NoV[j], roughness[i]), expected[i][j], 6e-4)
+                << roughness[i] << " " << NoV[j];
 }
 
 TEST(DisneyDiffuse, RenormalisedModelExceedsOneAtGrazingAndFullRoughness) {
-    EXPECT_NEAR(albedo_disney_diffuse(0, 1), 1.0315, 5e-5);  // Frostbite's choice is not strictly energy conserving
+    EXPECT_NEAR(albedo_disney_diffuse(0, 1), 1.0315,
+                5e-5);  // Frostbite's choice is not strictly energy conserving
     double largest = 0;
     for (int i = 0; i <= 100; ++i)
-        for (int j = 0; j <= 100; ++j) largest = std::max(largest, albedo_disney_diffuse(i / 100.0, j / 100.0));
+        for (int j = 0; j <= 100; ++j)
+            largest = std::max(largest, albedo_disney_diffuse(i / 100.0, j / 100.0));
     EXPECT_NEAR(largest, albedo_disney_diffuse(0, 1), 1e-12);
     double original = 0;
-    for (int j = 0; j <= 100; ++j) original = std::max(original, albedo_disney_diffuse_original(0, j / 100.0));
+    for (int j = 0; j <= 100; ++j)
+        original = std::max(original, albedo_disney_diffuse_original(0, j / 100.0));
     EXPECT_NEAR(original, 1.5577, 5e-3);
 }
 
 TEST(DisneyDiffuse, IsReciprocal) {
     EXPECT_EQ(f_disney_diffuse(0.3, 0.8, 0.9, 0.6), f_disney_diffuse(0.8, 0.3, 0.9, 0.6));
-    EXPECT_EQ(f_disney_diffuse_original(0.3f, 0.8f, 0.9f, 0.6f), f_disney_diffuse_original(0.8f, 0.3f, 0.9f, 0.6f));
+    EXPECT_EQ(f_disney_diffuse_original(0.3f, 0.8f, 0.9f, 0.6f),
+              f_disney_diffuse_original(0.8f, 0.3f, 0.9f, 0.6f));
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace pbr {
 namespace {
 
-/// Chi-square of samples against a pdf over a grid of cos(theta) x phi; returns the p-value. `sample(u1, u2)` gives a
-/// direction, `pdf(direction)` its density per steradian.
+/// Chi-square of samples against a pdf over a grid of cos(theta) x phi; returns the p-value. `sample(u1, u2)`
+/// gives a direction, `pdf(direction)` its density per steradian.
 template <class Sample, class Pdf>
 double chi_square_p_value(const Sample& sample, const Pdf& pdf) {
     constexpr int kRings = 16, kSectors = 16, kCount = 200'000, kSub = 24;
@@ -34,11 +34,13 @@ double chi_square_p_value(const Sample& sample, const Pdf& pdf) {
         for (int sector = 0; sector < kSectors; ++sector)
             for (int a = 0; a < kSub; ++a)
                 for (int b = 0; b < kSub; ++b) {
-                    const double z = (ring + rule.nodes[a]) / kRings, turns = (sector + rule.nodes[b]) / kSectors;
+                    const double z = (ring + rule.nodes[a]) / kRings,
+                                 turns = (sector + rule.nodes[b]) / kSectors;
                     const double s = std::sqrt(1 - z * z);
-                    const Vec3<double> w(s * std::cos(2 * std::numbers::pi * turns), s * std::sin(2 * std::numbers::pi * turns), z);
-                    expected[ring * kSectors + sector] += rule.weights[a] * rule.weights[b] * pdf(w) * 2 * std::numbers::pi /
-                                                          (kRings * kSectors) * kCount;
+                    const Vec3<double> w(s * std::cos(2 * std::numbers::pi * turns),
+                                         s * std::sin(2 * std::numbers::pi * turns), z);
+                    expected[ring * kSectors + sector] += rule.weights[a] * rule.weights[b] * pdf(w) * 2 *
+                                                          std::numbers::pi / (kRings * kSectors) * kCount;
                 }
     double statistic = 0, pooled_observed = 0, pooled_expected = 0;
     int cells = 0;
@@ -52,7 +54,8 @@ double chi_square_p_value(const Sample& sample, const Pdf& pdf) {
         ++cells;
     }
     if (pooled_expected > 5) {
-        statistic += (pooled_observed - pooled_expected) * (pooled_observed - pooled_expected) / pooled_expected;
+        statistic +=
+            (pooled_observed - pooled_expected) * (pooled_observed - pooled_expected) / pooled_expected;
         ++cells;
     }
     return boost::math::cdf(complement(boost::math::chi_squared(cells - 1), statistic));
@@ -63,15 +66,19 @@ constexpr double kSignificance = 1e-4;
 TEST(GgxNdfSampling, MatchesItsDensity) {
     for (const double alpha : {0.2, 0.5, 1.0})
         EXPECT_GT(chi_square_p_value([&](double u1, double u2) { return sample_ggx_ndf(alpha, u1, u2); },
-                                     [&](const Vec3<double>& w) { return pdf_ggx_ndf(alpha, w); }), kSignificance) << alpha;
+                                     [&](const Vec3<double>& w) { return pdf_ggx_ndf(alpha, w); }),
+                  kSignificance)
+            << alpha;
 }
 
 TEST(GgxVndfSampling, MatchesItsDensity) {
     for (const double alpha : {0.3, 0.7, 1.0})
         for (const double NoV : {0.0, 0.2, 0.7, 1.0}) {
             const Vec3<double> wo(std::sqrt(1 - NoV * NoV), 0, NoV);
-            EXPECT_GT(chi_square_p_value([&](double u1, double u2) { return sample_ggx_vndf(wo, alpha, u1, u2); },
-                                         [&](const Vec3<double>& w) { return pdf_ggx_vndf(wo, alpha, w); }), kSignificance)
+            EXPECT_GT(
+                chi_square_p_value([&](double u1, double u2) { return sample_ggx_vndf(wo, alpha, u1, u2); },
+                                   [&](const Vec3<double>& w) { return pdf_ggx_vndf(wo, alpha, w); }),
+                kSignificance)
                 << alpha << " " << NoV;
         }
 }
@@ -99,8 +106,10 @@ TEST(GgxSampling, SamplesAreUnitVectorsAboveTheSurface) {
         const float alpha = i % 3 == 0 ? 1e-4f : static_cast<float>(random_unit(1, i));
         const float NoV = i % 5 == 0 ? 0.0f : static_cast<float>(random_unit(2, i));
         const Vec3<float> wo(std::sqrt(1 - NoV * NoV), 0, NoV);
-        const float u1 = static_cast<float>(random_unit(3, i)) * 0.999999f, u2 = static_cast<float>(random_unit(4, i)) * 0.999999f;
-        for (const Vec3<float>& wm : {sample_ggx_ndf(std::max(alpha, 1e-6f), u1, u2), sample_ggx_vndf(wo, std::max(alpha, 1e-6f), u1, u2)}) {
+        const float u1 = static_cast<float>(random_unit(3, i)) * 0.999999f,
+                    u2 = static_cast<float>(random_unit(4, i)) * 0.999999f;
+        for (const Vec3<float>& wm : {sample_ggx_ndf(std::max(alpha, 1e-6f), u1, u2),
+                                      sample_ggx_vndf(wo, std::max(alpha, 1e-6f), u1, u2)}) {
             EXPECT_NEAR(glm::length(wm), 1, 1e-5f);
             EXPECT_GE(wm.z, -1e-6f);
         }

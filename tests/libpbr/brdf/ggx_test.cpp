@@ -20,9 +20,11 @@ TEST(Ggx, ProjectedAreaOfNormalsIsOne) {
         const auto integrand = [&](double x) {
             const double tangent = std::exp(x), cos2 = 1 / (1 + tangent * tangent);
             const double cosine = std::sqrt(cos2), sin2 = tangent * tangent * cos2;
-            return 2 * std::numbers::pi * D_ggx(cosine, sin2, alpha) * cosine * sin2 * cosine;  // sin dtheta = sin^2 cos dx
+            return 2 * std::numbers::pi * D_ggx(cosine, sin2, alpha) * cosine * sin2 *
+                   cosine;  // sin dtheta = sin^2 cos dx
         };
-        const double total = gauss_kronrod<double, 61>::integrate(integrand, std::log(alpha) - 22, std::log(alpha) + 22, 12, 1e-12);
+        const double total = gauss_kronrod<double, 61>::integrate(integrand, std::log(alpha) - 22,
+                                                                  std::log(alpha) + 22, 12, 1e-12);
         EXPECT_NEAR(total, 1, 1e-10) << "alpha " << alpha;
     }
 }
@@ -40,20 +42,25 @@ TEST(Ggx, MaskedVisibleAreaEqualsTheProjectedOne) {
             const double sin_v = std::sqrt(1 - NoV * NoV);
             const auto over_azimuth = [&](double theta) {
                 const double c = std::cos(theta), s = std::sin(theta);
-                const auto visible = [&](double phi) { return std::max(0.0, sin_v * s * std::cos(phi) + NoV * c); };
+                const auto visible = [&](double phi) {
+                    return std::max(0.0, sin_v * s * std::cos(phi) + NoV * c);
+                };
                 // The clamp's edge is a panel end.
                 const double x = NoV * c / (sin_v * s);
                 const double edge = x >= 1 ? std::numbers::pi : std::acos(-x);
-                return 2 * gauss_kronrod<double, 31>::integrate(visible, 0.0, edge, 5, 1e-12) * D_ggx(c, s * s, alpha) * s;
+                return 2 * gauss_kronrod<double, 31>::integrate(visible, 0.0, edge, 5, 1e-12) *
+                       D_ggx(c, s * s, alpha) * s;
             };
-            const double area = gauss_kronrod<double, 61>::integrate(over_azimuth, 0.0, std::numbers::pi / 2, 10, 1e-11);
+            const double area =
+                gauss_kronrod<double, 61>::integrate(over_azimuth, 0.0, std::numbers::pi / 2, 10, 1e-11);
             EXPECT_NEAR(G1_smith_ggx(NoV, alpha) * area, NoV, 1e-8) << alpha << " " << NoV;
         }
 }
 
 TEST(Ggx, CorrelatedVisibilityIsReciprocalAndNotBelowTheUncorrelatedOne) {
     for (int i = 0; i < 10'000; ++i) {
-        const double NoL = random_unit(1, i), NoV = random_unit(2, i), alpha = std::pow(random_unit(3, i), 4) + 1e-8;
+        const double NoL = random_unit(1, i), NoV = random_unit(2, i),
+                     alpha = std::pow(random_unit(3, i), 4) + 1e-8;
         const double correlated = V_smith_ggx_correlated(NoL, NoV, alpha);
         EXPECT_DOUBLE_EQ(correlated, V_smith_ggx_correlated(NoV, NoL, alpha));
         EXPECT_GE(correlated * (1 + 1e-14), V_smith_ggx_uncorrelated(NoL, NoV, alpha));
@@ -63,12 +70,19 @@ TEST(Ggx, CorrelatedVisibilityIsReciprocalAndNotBelowTheUncorrelatedOne) {
 
 TEST(Ggx, FloatFollowsDouble) {
     for (int i = 0; i < 10'000; ++i) {
-        const double NoL = random_unit(4, i), NoV = random_unit(5, i), alpha = 1e-3 + random_unit(6, i) * 0.999;
+        const double NoL = random_unit(4, i), NoV = random_unit(5, i),
+                     alpha = 1e-3 + random_unit(6, i) * 0.999;
         const double sin2 = random_unit(7, i) * alpha;
         const double exact = D_ggx(std::sqrt(1 - sin2), sin2, alpha);
-        EXPECT_NEAR(D_ggx(static_cast<float>(std::sqrt(1 - sin2)), static_cast<float>(sin2), static_cast<float>(alpha)) / exact, 1, 1e-6);
+        EXPECT_NEAR(D_ggx(static_cast<float>(std::sqrt(1 - sin2)), static_cast<float>(sin2),
+                          static_cast<float>(alpha)) /
+                        exact,
+                    1, 1e-6);
         const double V = V_smith_ggx_correlated(NoL, NoV, alpha);
-        EXPECT_NEAR(V_smith_ggx_correlated(static_cast<float>(NoL), static_cast<float>(NoV), static_cast<float>(alpha)) / V, 1, 2e-6);
+        EXPECT_NEAR(V_smith_ggx_correlated(static_cast<float>(NoL), static_cast<float>(NoV),
+                                           static_cast<float>(alpha)) /
+                        V,
+                    1, 2e-6);
     }
 }
 

@@ -28,7 +28,8 @@ TEST(Cubemap, DirectionAndTexelAreInverse) {
     for (const int size : {1, 2, 3, 8, 17, 256})
         for (int face = 0; face < 6; ++face)
             for (int k = 0; k < 64; ++k) {
-                const CubeTexel texel{face, static_cast<int>(random_bits(1, k) % size), static_cast<int>(random_bits(2, k) % size)};
+                const CubeTexel texel{face, static_cast<int>(random_bits(1, k) % size),
+                                      static_cast<int>(random_bits(2, k) % size)};
                 EXPECT_EQ(cubemap_texel(cubemap_texel_direction(texel, size), size), texel);
             }
 }
@@ -43,12 +44,17 @@ TEST(Cubemap, SolidAnglesSumToTheSphere) {
 }
 
 TEST(Cubemap, SolidAngleAgreesWithTheAntiderivative) {
-    // A second witness: the integral of (1 + s^2 + t^2)^-3/2 is atan(s t / sqrt(1 + s^2 + t^2)), in long double.
-    const auto corner = [](long double s, long double t) { return std::atan2(s * t, std::sqrt(1 + s * s + t * t)); };
+    // A second witness: the integral of (1 + s^2 + t^2)^-3/2 is atan(s t / sqrt(1 + s^2 + t^2)), in long
+    // double.
+    const auto corner = [](long double s, long double t) {
+        return std::atan2(s * t, std::sqrt(1 + s * s + t * t));
+    };
     for (const int size : {1, 4, 15, 128})
         for (int k = 0; k < 50; ++k) {
-            const int x = static_cast<int>(random_bits(3, k) % size), y = static_cast<int>(random_bits(4, k) % size);
-            const long double s0 = 2.0L * x / size - 1, s1 = 2.0L * (x + 1) / size - 1, t0 = 2.0L * y / size - 1, t1 = 2.0L * (y + 1) / size - 1;
+            const int x = static_cast<int>(random_bits(3, k) % size),
+                      y = static_cast<int>(random_bits(4, k) % size);
+            const long double s0 = 2.0L * x / size - 1, s1 = 2.0L * (x + 1) / size - 1,
+                              t0 = 2.0L * y / size - 1, t1 = 2.0L * (y + 1) / size - 1;
             const long double exact = corner(s1, t1) - corner(s0, t1) - corner(s1, t0) + corner(s0, t0);
             EXPECT_NEAR(static_cast<double>(cubemap_texel_solid_angle(size, x, y) / exact), 1, 1e-13);
         }
@@ -63,12 +69,14 @@ TEST(Cubemap, NeighboursLieAcrossTheEdgeAndAreMutual) {
                     ASSERT_NE(across.face, face);
                     const CubeTexel own{face, std::clamp(x, 0, size - 1), std::clamp(y, 0, size - 1)};
                     // The two share an edge: their centres are as far apart as neighbours can be.
-                    const double apart = glm::length(cubemap_texel_direction(across, size) - cubemap_texel_direction(own, size));
+                    const double apart = glm::length(cubemap_texel_direction(across, size) -
+                                                     cubemap_texel_direction(own, size));
                     EXPECT_LT(apart, size == 1 ? 1.5 : 2.9 / size);
                     bool mutual = false;
                     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
                         const int bx = across.x + dx, by = across.y + dy;
-                        if (bx < 0 || by < 0 || bx >= size || by >= size) mutual |= cubemap_neighbour(across.face, bx, by, size) == own;
+                        if (bx < 0 || by < 0 || bx >= size || by >= size)
+                            mutual |= cubemap_neighbour(across.face, bx, by, size) == own;
                     }
                     EXPECT_TRUE(mutual);
                 }

@@ -14,7 +14,8 @@
 namespace pbr {
 namespace {
 
-/// The second witness: adaptive quadrature over directions of light, not half vectors, with D and V as they stand.
+/// The second witness: adaptive quadrature over directions of light, not half vectors, with D and V as they
+/// stand.
 DirectionalAlbedo by_directions_of_light(double NoV, double alpha) {
     using boost::math::quadrature::gauss_kronrod;
     const double sin_v = std::sqrt((1 - NoV) * (1 + NoV));
@@ -24,19 +25,31 @@ DirectionalAlbedo by_directions_of_light(double NoV, double alpha) {
             const auto at = [&](double phi) {  // azimuth away from the mirror direction
                 const double hx = sin_l * std::cos(phi) - sin_v, hy = sin_l * std::sin(phi), hz = NoL + NoV;
                 const double length = std::sqrt(hx * hx + hy * hy + hz * hz);
-                const double sin2 = (hx * hx + hy * hy) / (length * length), VoH = (NoV * hz - sin_v * hx) / length;
-                const double value = D_ggx(hz / length, sin2, alpha) * V_smith_ggx_correlated(NoL, NoV, alpha) * NoL;
+                const double sin2 = (hx * hx + hy * hy) / (length * length),
+                             VoH = (NoV * hz - sin_v * hx) / length;
+                const double value =
+                    D_ggx(hz / length, sin2, alpha) * V_smith_ggx_correlated(NoL, NoV, alpha) * NoL;
                 return fresnel ? value * schlick_weight(VoH) : value;
             };
             double sum = 0;
             const double cuts[] = {0, 0.02, 0.1, 0.4, 1.2, std::numbers::pi};
-            for (int i = 0; i < 5; ++i) sum += gauss_kronrod<double, 31>::integrate(at, cuts[i], cuts[i + 1], 10, 1e-10);
+            for (int i = 0; i < 5; ++i)
+                sum += gauss_kronrod<double, 31>::integrate(at, cuts[i], cuts[i + 1], 10, 1e-10);
             return 2 * sum;
         };
         double sum = 0;
-        const double cuts[] = {0, NoV * .25, NoV * .5, NoV * .8, NoV * .95, NoV, NoV + (1 - NoV) * .05,
-                               NoV + (1 - NoV) * .2, NoV + (1 - NoV) * .5, 1};
-        for (int i = 0; i < 9; ++i) sum += gauss_kronrod<double, 31>::integrate(ring, cuts[i], cuts[i + 1], 10, 1e-10);
+        const double cuts[] = {0,
+                               NoV * .25,
+                               NoV * .5,
+                               NoV * .8,
+                               NoV * .95,
+                               NoV,
+                               NoV + (1 - NoV) * .05,
+                               NoV + (1 - NoV) * .2,
+                               NoV + (1 - NoV) * .5,
+                               1};
+        for (int i = 0; i < 9; ++i)
+            sum += gauss_kronrod<double, 31>::integrate(ring, cuts[i], cuts[i + 1], 10, 1e-10);
         return sum;
     };
     return {integral(false), integral(true)};
@@ -44,18 +57,20 @@ DirectionalAlbedo by_directions_of_light(double NoV, double alpha) {
 
 TEST(Dfg, AgreesWithAdaptiveQuadratureOverDirectionsOfLight) {
     const DfgMethod method = DfgMethod::quadrature(1e-8);
-    for (const auto& [alpha, NoV] : {std::pair{.1, .1}, {.1, .5}, {.25, .1}, {.5, .5}, {1., .1}, {1., .5}, {.05, .05}}) {
-        const DirectionalAlbedo ours = dfg_ggx(NoV, alpha, method), witness = by_directions_of_light(NoV, alpha);
+    for (const auto& [alpha, NoV] :
+         {std::pair{.1, .1}, {.1, .5}, {.25, .1}, {.5, .5}, {1., .1}, {1., .5}, {.05, .05}}) {
+        const DirectionalAlbedo ours = dfg_ggx(NoV, alpha, method),
+                                witness = by_directions_of_light(NoV, alpha);
         EXPECT_NEAR(ours.E, witness.E, 1e-8) << alpha << " " << NoV;
         EXPECT_NEAR(ours.Fc, witness.Fc, 1e-8) << alpha << " " << NoV;
     }
 }
 
 TEST(Dfg, HasThePublishedValues) {
-    const double rows[][4] = {{.1, .1, .88345407, .30091151},   {.1, .5, .96920499, .03213906},
-                              {.25, .1, .89162235, .13969245},  {.25, .5, .85726344, .02234730},
-                              {.5, .5, .69825070, .01014998},   {1, .1, .76021047, .02386689},
-                              {1, .5, .45069386, .00298874},    {1, 1, 1 - std::log(2.0), 3.361e-5}};
+    const double rows[][4] = {{.1, .1, .88345407, .30091151},  {.1, .5, .96920499, .03213906},
+                              {.25, .1, .89162235, .13969245}, {.25, .5, .85726344, .02234730},
+                              {.5, .5, .69825070, .01014998},  {1, .1, .76021047, .02386689},
+                              {1, .5, .45069386, .00298874},   {1, 1, 1 - std::log(2.0), 3.361e-5}};
     for (const auto& row : rows) {
         const DirectionalAlbedo albedo = dfg_ggx(row[1], row[0], DfgMethod::quadrature(1e-8));
         EXPECT_NEAR(albedo.E, row[2], 1e-6) << row[0] << " " << row[1];
@@ -69,7 +84,8 @@ std::vector<std::pair<double, std::vector<double>>> domain() {
     std::vector<double> views{0, 1e-8, 1e-6, 1e-4, 1e-3, 0.01, 0.99, 1};
     for (int i = 0; i < 24; ++i) views.push_back(random_unit(1, i));
     std::vector<std::pair<double, std::vector<double>>> rows;
-    for (const double alpha : {1e-8, 1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.1, 0.5, 1.0}) rows.emplace_back(alpha, views);
+    for (const double alpha : {1e-8, 1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.1, 0.5, 1.0})
+        rows.emplace_back(alpha, views);
     for (int i = 0; i < 16; ++i) {
         std::vector<double> near_alpha = views;
         const double alpha = std::pow(random_unit(2, i), 4) + 1e-8;
@@ -87,7 +103,8 @@ TEST(Dfg, EveryRuleKeepsItsPromiseOverTheWholeDomain) {
         EXPECT_EQ(method.rule.max_error, promised);
         double worst = 0;
         for (const auto& [alpha, views] : rows) {
-            std::vector<double> E(views.size()), Fc(views.size()), true_E(views.size()), true_Fc(views.size());
+            std::vector<double> E(views.size()), Fc(views.size()), true_E(views.size()),
+                true_Fc(views.size());
             dfg_ggx_row(views, alpha, method, E, Fc);
             dfg_ggx_row(views, alpha, truth, true_E, true_Fc);
             for (std::size_t i = 0; i < views.size(); ++i)
@@ -133,13 +150,16 @@ TEST(Dfg, MonteCarloAgreesWithinFourSigma) {
         const DirectionalAlbedo truth = dfg_ggx(NoV, alpha, DfgMethod::quadrature(1e-8));
         double sum = 0, squares = 0, sum_fc = 0, squares_fc = 0;
         for (int run = 0; run < kRuns; ++run) {
-            const DirectionalAlbedo estimate = dfg_ggx(NoV, alpha, DfgMethod::importance_sampling(kSamples, random_bits(5, run)));
+            const DirectionalAlbedo estimate =
+                dfg_ggx(NoV, alpha, DfgMethod::importance_sampling(kSamples, random_bits(5, run)));
             sum += estimate.E;
             squares += estimate.E * estimate.E;
             sum_fc += estimate.Fc;
             squares_fc += estimate.Fc * estimate.Fc;
         }
-        const auto sigma = [](double s, double s2) { return std::sqrt(std::max(0.0, s2 / kRuns - s * s / kRuns / kRuns) / (kRuns - 1)); };
+        const auto sigma = [](double s, double s2) {
+            return std::sqrt(std::max(0.0, s2 / kRuns - s * s / kRuns / kRuns) / (kRuns - 1));
+        };
         EXPECT_NEAR(sum / kRuns, truth.E, 4 * sigma(sum, squares) + 1e-9) << alpha << " " << NoV;
         EXPECT_NEAR(sum_fc / kRuns, truth.Fc, 4 * sigma(sum_fc, squares_fc) + 1e-9) << alpha << " " << NoV;
     }

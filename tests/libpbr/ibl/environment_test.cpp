@@ -24,7 +24,8 @@ std::vector<float> noise(int texels) {
 std::vector<float> resample_all(const EquirectView& view, int size) {
     std::vector<float> cube(static_cast<std::size_t>(size) * size * 18);
     for (int row = 0; row < 6 * size; ++row)
-        resample_area(view, size, row / size, row % size, {&cube[static_cast<std::size_t>(row) * size * 3], static_cast<std::size_t>(size) * 3});
+        resample_area(view, size, row / size, row % size,
+                      {&cube[static_cast<std::size_t>(row) * size * 3], static_cast<std::size_t>(size) * 3});
     return cube;
 }
 
@@ -33,7 +34,8 @@ double cube_flux(const std::vector<float>& cube, int size, int channel) {
     for (int face = 0; face < 6; ++face)
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x)
-                flux += cubemap_texel_solid_angle(size, x, y) * cube[((static_cast<std::size_t>(face) * size + y) * size + x) * 3 + channel];
+                flux += cubemap_texel_solid_angle(size, x, y) *
+                        cube[((static_cast<std::size_t>(face) * size + y) * size + x) * 3 + channel];
     return flux.value();
 }
 
@@ -50,17 +52,21 @@ TEST(Equirect, DirectionAndPointAreInverse) {
 }
 
 TEST(Equirect, AreaResamplingKeepsTheFluxAndConstants) {
-    for (const auto& [width, height, size] : {std::tuple{64, 32, 16}, {64, 32, 7}, {37, 19, 5}, {16, 8, 32}, {2, 1, 1}}) {
+    for (const auto& [width, height, size] :
+         {std::tuple{64, 32, 16}, {64, 32, 7}, {37, 19, 5}, {16, 8, 32}, {2, 1, 1}}) {
         const std::vector<float> picture = noise(width * height);
         const EquirectView view{picture.data(), width, height};
         const std::vector<float> cube = resample_all(view, size);
         for (int c = 0; c < 3; ++c) {
             CompensatedSum flux;
             for (int y = 0; y < height; ++y) {
-                const double texel = 2 * std::numbers::pi / width * (std::cos(std::numbers::pi * y / height) - std::cos(std::numbers::pi * (y + 1) / height));
+                const double texel =
+                    2 * std::numbers::pi / width *
+                    (std::cos(std::numbers::pi * y / height) - std::cos(std::numbers::pi * (y + 1) / height));
                 for (int x = 0; x < width; ++x) flux += texel * view.texel(x, y)[c];
             }
-            EXPECT_NEAR(cube_flux(cube, size, c) / flux.value(), 1, 1e-4) << width << "x" << height << " to " << size;
+            EXPECT_NEAR(cube_flux(cube, size, c) / flux.value(), 1, 1e-4)
+                << width << "x" << height << " to " << size;
         }
         std::vector<float> constant(picture.size(), 0.7f);
         for (const float value : resample_all({constant.data(), width, height}, size)) ASSERT_EQ(value, 0.7f);
@@ -75,25 +81,29 @@ TEST(Equirect, AreaResamplingAgreesWithBruteForceSubdivision) {
     for (const CubeTexel texel : {CubeTexel{0, 1, 2}, {2, 1, 1}, {3, 0, 3}, {5, 3, 0}, {4, 2, 2}}) {
         double sum = 0, weight = 0;
         for (int k = 0; k < kSub * kSub; ++k) {
-            const double s = 2 * (texel.x + (k % kSub + 0.5) / kSub) / kSize - 1, t = 2 * (texel.y + (k / kSub + 0.5) / kSub) / kSize - 1;
+            const double s = 2 * (texel.x + (k % kSub + 0.5) / kSub) / kSize - 1,
+                         t = 2 * (texel.y + (k / kSub + 0.5) / kSub) / kSize - 1;
             const double q = 1 + s * s + t * t, w = 1 / (q * std::sqrt(q));
             const glm::dvec2 uv = equirect_point(cube_vector(texel.face, s, t));
             sum += w * view.texel(static_cast<int>(uv.x * 24), std::min(11, static_cast<int>(uv.y * 12)))[1];
             weight += w;
         }
-        const float ours = cube[((static_cast<std::size_t>(texel.face) * kSize + texel.y) * kSize + texel.x) * 3 + 1];
+        const float ours =
+            cube[((static_cast<std::size_t>(texel.face) * kSize + texel.y) * kSize + texel.x) * 3 + 1];
         EXPECT_NEAR(ours, sum / weight, 1e-3);
     }
 }
 
 TEST(Equirect, ResamplingIsContinuousAtSeamAndPoles) {
-    // A smooth picture stays smooth: texels on both sides of the seam (behind, -z) and around the poles differ little.
+    // A smooth picture stays smooth: texels on both sides of the seam (behind, -z) and around the poles
+    // differ little.
     constexpr int kWidth = 128, kHeight = 64, kSize = 32;
     std::vector<float> picture(kWidth * kHeight * 3);
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const glm::dvec3 d = equirect_direction((x + 0.5) / kWidth, (y + 0.5) / kHeight);
-            for (int c = 0; c < 3; ++c) picture[static_cast<std::size_t>(y * kWidth + x) * 3 + c] = static_cast<float>(1 + d[c]);
+            for (int c = 0; c < 3; ++c)
+                picture[static_cast<std::size_t>(y * kWidth + x) * 3 + c] = static_cast<float>(1 + d[c]);
         }
     const EquirectView view{picture.data(), kWidth, kHeight};
     std::vector<float> bilinear(kSize * 3), area(kSize * 3);
@@ -118,7 +128,9 @@ TEST(Cube, AreaResamplingToTheSameSizeIsBitExactAndKeepsFluxOtherwise) {
     for (const int size : {12, 24, 6, 5, 1}) {
         std::vector<float> out(static_cast<std::size_t>(size) * size * 18);
         for (int row = 0; row < 6 * size; ++row)
-            resample_area(view, size, row / size, row % size, {&out[static_cast<std::size_t>(row) * size * 3], static_cast<std::size_t>(size) * 3});
+            resample_area(
+                view, size, row / size, row % size,
+                {&out[static_cast<std::size_t>(row) * size * 3], static_cast<std::size_t>(size) * 3});
         if (size == kSize) {
             EXPECT_EQ(out, cube);
         }
@@ -128,7 +140,8 @@ TEST(Cube, AreaResamplingToTheSameSizeIsBitExactAndKeepsFluxOtherwise) {
 
 TEST(Patches, WeightsSumToTheSphere) {
     const std::vector<float> picture = noise(6 * 20 * 20);
-    for (const PatchBlocks& blocks : {PatchBlocks(EquirectView{picture.data(), 40, 20}), PatchBlocks(CubeView{picture.data(), 20})})
+    for (const PatchBlocks& blocks :
+         {PatchBlocks(EquirectView{picture.data(), 40, 20}), PatchBlocks(CubeView{picture.data(), 20})})
         for (const int order_index : {0, 1, 3}) {
             CompensatedSum total;
             PatchPoints points;
@@ -137,7 +150,8 @@ TEST(Patches, WeightsSumToTheSphere) {
                 for (std::size_t i = 0; i < points.size(); ++i) {
                     total += static_cast<double>(points.weight[i]);
                     const glm::dvec3 d(points.x[i], points.y[i], points.z[i]);
-                    EXPECT_LE(2 * std::asin(glm::length(d - blocks.cone(block).axis) / 2), blocks.cone(block).half_angle + 1e-6);
+                    EXPECT_LE(2 * std::asin(glm::length(d - blocks.cone(block).axis) / 2),
+                              blocks.cone(block).half_angle + 1e-6);
                 }
             }
             EXPECT_NEAR(total.value(), 4 * std::numbers::pi, 2e-6);

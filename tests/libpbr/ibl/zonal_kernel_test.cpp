@@ -38,7 +38,8 @@ TEST(GgxZonalKernel, IsDTimesNoLWithViewAlongTheNormal) {
             return D_ggx(NoH, (1 - mu) / 2, alpha) * mu;
         };
         const double factor = kernel.value(0.3) / D_NoL(0.7);
-        for (const double mu : {0.05, 0.4, 0.9, 0.999}) EXPECT_NEAR(kernel.value(1 - mu) / (factor * D_NoL(mu)), 1, 1e-12);
+        for (const double mu : {0.05, 0.4, 0.9, 0.999})
+            EXPECT_NEAR(kernel.value(1 - mu) / (factor * D_NoL(mu)), 1, 1e-12);
     }
 }
 
@@ -52,7 +53,8 @@ TEST(GgxZonalKernel, HasThePublishedZonalCoefficients) {
     for (const auto& row : rows) {
         const GgxZonalKernel kernel(row.alpha);
         for (int l = 1; l <= 4; ++l)
-            EXPECT_NEAR(integrate(kernel, [&](double x) { return boost::math::legendre_p(l, 1 - x); }), row.k[l - 1], 1e-6)
+            EXPECT_NEAR(integrate(kernel, [&](double x) { return boost::math::legendre_p(l, 1 - x); }),
+                        row.k[l - 1], 1e-6)
                 << "alpha " << row.alpha << ", band " << l;
     }
 }
@@ -65,7 +67,8 @@ TEST(GgxZonalKernel, CdfIsTheIntegralOfTheKernel) {
                 const double t = std::exp(log_t);
                 return 2 * std::numbers::pi * kernel.value(t) * t;
             };
-            const double share = gauss_kronrod<double, 61>::integrate(integrand, -55.0, std::log(x), 14, 1e-13);
+            const double share =
+                gauss_kronrod<double, 61>::integrate(integrand, -55.0, std::log(x), 14, 1e-13);
             EXPECT_NEAR(kernel.cdf(x), share, 1e-11) << alpha << " " << x;
         }
         EXPECT_EQ(kernel.cdf(1), 1);

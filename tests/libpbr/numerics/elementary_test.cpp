@@ -18,9 +18,11 @@ TEST(Elementary, SinCosPiAgreesWithLongDouble) {
     long double worst = 0;
     for (int i = 0; i < kPoints; ++i) {
         const double x = (random_unit(1, i) - 0.5) * std::ldexp(1.0, i % 12);
-        const long double reduced = std::remainder(static_cast<long double>(x), 2.0L) * std::numbers::pi_v<long double>;
+        const long double reduced =
+            std::remainder(static_cast<long double>(x), 2.0L) * std::numbers::pi_v<long double>;
         const SinCos value = sin_cos_pi(x);
-        worst = std::max({worst, std::abs(value.sin - std::sin(reduced)), std::abs(value.cos - std::cos(reduced))});
+        worst = std::max(
+            {worst, std::abs(value.sin - std::sin(reduced)), std::abs(value.cos - std::cos(reduced))});
     }
     EXPECT_LE(worst, 2.3e-16L);
 }
@@ -61,7 +63,8 @@ TEST(Elementary, LogDefinesItsEdges) {
 TEST(Elementary, Atan2AgreesWithLongDouble) {
     long double worst = 0;
     for (int i = 0; i < kPoints; ++i) {
-        const double y = random_unit(4, i) - 0.5, x = (random_unit(5, i) - 0.5) * std::ldexp(1.0, i % 40 - 20);
+        const double y = random_unit(4, i) - 0.5,
+                     x = (random_unit(5, i) - 0.5) * std::ldexp(1.0, i % 40 - 20);
         worst = std::max(worst, std::abs(atan2_exact(y, x) - std::atan2(static_cast<long double>(y), x)));
     }
     EXPECT_LE(worst, 7e-16L);

@@ -16,8 +16,10 @@ double discrepancy(const std::vector<Sample2>& points) {
     for (int i = 1; i <= 32; ++i)
         for (int j = 1; j <= 32; ++j) {
             const double a = i / 32.0, b = j / 32.0;
-            const auto inside = std::count_if(points.begin(), points.end(), [&](const Sample2& p) { return p.u1 < a && p.u2 < b; });
-            worst = std::max(worst, std::abs(static_cast<double>(inside) / static_cast<double>(points.size()) - a * b));
+            const auto inside = std::count_if(points.begin(), points.end(),
+                                              [&](const Sample2& p) { return p.u1 < a && p.u2 < b; });
+            worst = std::max(
+                worst, std::abs(static_cast<double>(inside) / static_cast<double>(points.size()) - a * b));
         }
     return worst;
 }

@@ -1,8 +1,8 @@
 #pragma once
 // Sampling the GGX distribution: triples sample / inverse / pdf. T is float or double.
 //
-// Half vectors wm are unit vectors in the frame of the surface, normal +z; pdfs are with respect to solid angle of wm.
-// For a reflected direction wi = 2 (wo.wm) wm - wo divide by the Jacobian 4 (wo.wm).
+// Half vectors wm are unit vectors in the frame of the surface, normal +z; pdfs are with respect to solid
+// angle of wm. For a reflected direction wi = 2 (wo.wm) wm - wo divide by the Jacobian 4 (wo.wm).
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,8 @@ T azimuth_turns(T x, T y) {
     return static_cast<T>(turns < 0 ? turns + 1 : turns);
 }
 
-/// A half vector with density D NoH (Walter et al. 2007, eq. 35-36): tan^2 = alpha^2 u1 / (1 - u1). u1, u2 in [0, 1).
+/// A half vector with density D NoH (Walter et al. 2007, eq. 35-36): tan^2 = alpha^2 u1 / (1 - u1). u1, u2 in
+/// [0, 1).
 template <class T>
 Vec3<T> sample_ggx_ndf(T alpha, T u1, T u2) {
     const T sin_part = alpha * alpha * u1, cos_part = T(1) - u1;
@@ -45,23 +46,25 @@ T pdf_ggx_ndf(T alpha, const Vec3<T>& wm) {
 template <class T>
 Sample2 inverse_ggx_ndf(T alpha, const Vec3<T>& wm) {
     const T tan2 = (wm.x * wm.x + wm.y * wm.y) / (wm.z * wm.z);
-    return {static_cast<double>(tan2 / (alpha * alpha + tan2)), static_cast<double>(azimuth_turns(wm.x, wm.y))};
+    return {static_cast<double>(tan2 / (alpha * alpha + tan2)),
+            static_cast<double>(azimuth_turns(wm.x, wm.y))};
 }
 
-/// A half vector visible from wo, by a spherical cap (Dupuy & Benyoub 2023, "Sampling visible GGX normals with spherical
-/// caps", listing 3). wo.z >= 0; u1 chooses the azimuth, u2 the height. u1, u2 in [0, 1).
+/// A half vector visible from wo, by a spherical cap (Dupuy & Benyoub 2023, "Sampling visible GGX normals
+/// with spherical caps", listing 3). wo.z >= 0; u1 chooses the azimuth, u2 the height. u1, u2 in [0, 1).
 template <class T>
 Vec3<T> sample_ggx_vndf(const Vec3<T>& wo, T alpha, T u1, T u2) {
     const Vec3<T> wo_std = glm::normalize(Vec3<T>(alpha * wo.x, alpha * wo.y, wo.z));
     const SinCos azimuth = sin_cos_pi(2 * static_cast<double>(u1));
     const T z = (T(1) - u2) * (T(1) + wo_std.z) - wo_std.z;
     const T sine = std::sqrt(std::clamp(T(1) - z * z, T(0), T(1)));
-    const Vec3<T> h = Vec3<T>(sine * static_cast<T>(azimuth.cos), sine * static_cast<T>(azimuth.sin), z) + wo_std;
+    const Vec3<T> h =
+        Vec3<T>(sine * static_cast<T>(azimuth.cos), sine * static_cast<T>(azimuth.sin), z) + wo_std;
     return glm::normalize(Vec3<T>(alpha * h.x, alpha * h.y, h.z));
 }
 
-/// G1(wo) max(0, wo.wm) D(wm) / NoV, 1/sr (Heitz 2018, "Sampling the GGX distribution of visible normals", eq. 3).
-/// wo.z = 0 gives the limit: 2 max(0, wo.wm) D / alpha.
+/// G1(wo) max(0, wo.wm) D(wm) / NoV, 1/sr (Heitz 2018, "Sampling the GGX distribution of visible normals",
+/// eq. 3). wo.z = 0 gives the limit: 2 max(0, wo.wm) D / alpha.
 template <class T>
 T pdf_ggx_vndf(const Vec3<T>& wo, T alpha, const Vec3<T>& wm) {
     const T cosine = glm::dot(wo, wm);
@@ -77,7 +80,8 @@ Sample2 inverse_ggx_vndf(const Vec3<T>& wo, T alpha, const Vec3<T>& wm) {
     const Vec3<T> wm_std = glm::normalize(Vec3<T>(wm.x / alpha, wm.y / alpha, wm.z));
     const Vec3<T> cap = T(2) * glm::dot(wo_std, wm_std) * wm_std - wo_std;  // wo_std mirrored at wm_std
     const T u2 = T(1) - (cap.z + wo_std.z) / (T(1) + wo_std.z);
-    return {static_cast<double>(azimuth_turns(cap.x, cap.y)), static_cast<double>(std::clamp(u2, T(0), T(1)))};
+    return {static_cast<double>(azimuth_turns(cap.x, cap.y)),
+            static_cast<double>(std::clamp(u2, T(0), T(1)))};
 }
 
 }  // namespace pbr

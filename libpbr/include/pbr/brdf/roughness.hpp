@@ -3,7 +3,8 @@
 //
 // smoothness            what Frostbite's artists author, 1 - perceptual_roughness
 // perceptual_roughness  what most engines author; the Frostbite notes call it linear roughness
-// alpha                 its square, the width parameter of GGX (Burley 2012, "Physically-based shading at Disney", 5.4)
+// alpha                 its square, the width parameter of GGX (Burley 2012, "Physically-based shading at
+// Disney", 5.4)
 
 namespace pbr {
 
@@ -23,8 +24,8 @@ constexpr T perceptual_roughness_from_smoothness(T smoothness) {
 template <class T>
 T perceptual_roughness_from_alpha(T alpha);
 
-/// Perceptual roughness of a probe's mip level with the linear mapping level = (levels - 1) * perceptual_roughness.
-/// level in [0, levels - 1]; a chain of one level is the mirror, 0.
+/// Perceptual roughness of a probe's mip level with the linear mapping level = (levels - 1) *
+/// perceptual_roughness. level in [0, levels - 1]; a chain of one level is the mirror, 0.
 constexpr double perceptual_roughness_from_level(double level, int levels) {
     return levels > 1 ? level / (levels - 1) : 0.0;
 }

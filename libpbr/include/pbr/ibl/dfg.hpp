@@ -4,10 +4,10 @@
 //     E(NoV, alpha)  = integral of D V NoL over the hemisphere            (height-correlated Smith)
 //     Fc(NoV, alpha) = the same with the integrand times (1 - VoH)^5
 //
-// so that the lobe of a material with Schlick's Fresnel has the albedo f0 (E - Fc) + f90 Fc: scale E - Fc, bias Fc
-// (Karis 2013, "Real shading in Unreal Engine 4"; Lagarde & de Rousiers 2014, 4.9.2). 0 <= Fc <= E <= 1.
-// Limits: alpha = 0 is the mirror, E = 1 and Fc = (1 - NoV)^5; NoV = 0 at alpha > 0 gives E = 1; the two limits do not
-// commute (along NoV = alpha -> 0, E tends to .89).
+// so that the lobe of a material with Schlick's Fresnel has the albedo f0 (E - Fc) + f90 Fc: scale E - Fc,
+// bias Fc (Karis 2013, "Real shading in Unreal Engine 4"; Lagarde & de Rousiers 2014, 4.9.2). 0 <= Fc <= E
+// <= 1. Limits: alpha = 0 is the mirror, E = 1 and Fc = (1 - NoV)^5; NoV = 0 at alpha > 0 gives E = 1; the
+// two limits do not commute (along NoV = alpha -> 0, E tends to .89).
 
 #include <cstdint>
 #include <span>
@@ -46,7 +46,9 @@ struct DfgMethod {
     int samples = 0;         ///< of importance sampling
     std::uint64_t seed = 0;  ///< of importance sampling; every (NoV, alpha) hashes it anew
 
-    static DfgMethod quadrature(double max_error) { return {DfgEstimator::quadrature, dfg_rule(max_error), 0, 0}; }
+    static DfgMethod quadrature(double max_error) {
+        return {DfgEstimator::quadrature, dfg_rule(max_error), 0, 0};
+    }
     static DfgMethod importance_sampling(int samples, std::uint64_t seed) {
         return {DfgEstimator::importance_sampling, {}, samples, seed};
     }
@@ -55,8 +57,9 @@ struct DfgMethod {
 };
 
 /// E and Fc of many views at one alpha. NoV in [0, 1], alpha in [0, 1]; the spans have equal sizes.
-/// Quadrature is vectorised over views, each view's bits the same in any row; its error is method.rule.max_error.
-/// Importance sampling takes the R2 sequence: its error falls like samples^-1 while smooth, samples^-1/2 at worst.
+/// Quadrature is vectorised over views, each view's bits the same in any row; its error is
+/// method.rule.max_error. Importance sampling takes the R2 sequence: its error falls like samples^-1 while
+/// smooth, samples^-1/2 at worst.
 void dfg_ggx_row(std::span<const double> NoV, double alpha, const DfgMethod& method, std::span<double> E,
                  std::span<double> Fc);
 

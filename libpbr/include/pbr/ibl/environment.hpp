@@ -1,8 +1,8 @@
 #pragma once
 // Environments as pictures store them, and their exact resampling to cube maps.
 //
-// A picture is constant over each of its texels: that is the function every integral of this library means. Pictures
-// are RGB floats, interleaved, row 0 at the top.
+// A picture is constant over each of its texels: that is the function every integral of this library means.
+// Pictures are RGB floats, interleaved, row 0 at the top.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -11,9 +11,10 @@
 
 namespace pbr {
 
-/// An equirectangular picture. Its own frame is OpenEXR's for latitude-longitude maps: the top row surrounds +y, the
-/// middle of the picture looks at +z, and +x is a quarter of the width to the left of it (right-handed, seen from
-/// within). `world_to_source` is a rotation or reflection that takes world directions to that frame.
+/// An equirectangular picture. Its own frame is OpenEXR's for latitude-longitude maps: the top row surrounds
+/// +y, the middle of the picture looks at +z, and +x is a quarter of the width to the left of it
+/// (right-handed, seen from within). `world_to_source` is a rotation or reflection that takes world
+/// directions to that frame.
 struct EquirectView {
     const float* rgb = nullptr;
     int width = 0;
@@ -39,20 +40,22 @@ glm::dvec3 equirect_direction(double u, double v);
 /// (u, v) in [0, 1) x [0, 1] of a direction (any length but 0) in the picture's own frame.
 glm::dvec2 equirect_point(const glm::dvec3& direction);
 
-/// Solid angle of a texel of row y, sr: 2 pi / width (cos a - cos b), without cancellation. Relative error below 1e-14.
+/// Solid angle of a texel of row y, sr: 2 pi / width (cos a - cos b), without cancellation. Relative error
+/// below 1e-14.
 double equirect_texel_solid_angle(int width, int height, int y);
 
-/// Row y of a face of a cube map of `size`: each texel the mean radiance of the picture over the texel's solid angle.
-/// `rgb_out` holds size * 3 floats. Every texel's integral is exact in colatitude and by Gauss-Legendre quadrature in
-/// longitude between the picture's columns; relative error of a mean below 1e-3 of the contrast of texels that a cube
-/// edge cuts, and 0 for a constant picture. Costs about (source texels covered) x 3 evaluations.
+/// Row y of a face of a cube map of `size`: each texel the mean radiance of the picture over the texel's
+/// solid angle. `rgb_out` holds size * 3 floats. Every texel's integral is exact in colatitude and by
+/// Gauss-Legendre quadrature in longitude between the picture's columns; relative error of a mean below 1e-3
+/// of the contrast of texels that a cube edge cuts, and 0 for a constant picture. Costs about (source texels
+/// covered) x 3 evaluations.
 void resample_area(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out);
 
 /// The same for a cube map of another size: exact.
 void resample_area(const CubeView& source, int size, int face, int y, std::span<float> rgb_out);
 
-/// Row y of a face, each texel the bilinear interpolation of the picture at the texel's centre; wraps around the seam
-/// and over the poles, and for cube maps across edges.
+/// Row y of a face, each texel the bilinear interpolation of the picture at the texel's centre; wraps around
+/// the seam and over the poles, and for cube maps across edges.
 void resample_bilinear(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out);
 void resample_bilinear(const CubeView& source, int size, int face, int y, std::span<float> rgb_out);
 

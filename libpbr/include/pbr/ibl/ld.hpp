@@ -1,12 +1,13 @@
 #pragma once
-// The LD term of the split sum: radiance prefiltered by the GGX lobe at N = V = R (see ibl/zonal_kernel.hpp), for the
-// texels of a cube map level. One integral, three estimators:
+// The LD term of the split sum: radiance prefiltered by the GGX lobe at N = V = R (see ibl/zonal_kernel.hpp),
+// for the texels of a cube map level. One integral, three estimators:
 //
 //   LdEstimator::exact                         the sum over every texel of the source
 //   LdEstimator::importance_sampling           the mean of samples with the density of the lobe
-//   LdEstimator::filtered_importance_sampling  the same on a mip pyramid, each sample as wide as its share of the lobe
-//                                              (Krivanek & Colbert 2008, "Real-time shading with filtered importance
-//                                              sampling"; GPU Gems 3, ch. 20)
+//   LdEstimator::filtered_importance_sampling  the same on a mip pyramid, each sample as wide as its share of
+//   the lobe
+//                                              (Krivanek & Colbert 2008, "Real-time shading with filtered
+//                                              importance sampling"; GPU Gems 3, ch. 20)
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -21,11 +22,13 @@ namespace pbr {
 
 enum class LdEstimator { importance_sampling, filtered_importance_sampling, exact };
 
-/// A cube map with its mip chain down to 1 x 1, laid out for filtered lookups: RGBA floats, each face with a border of
-/// one texel copied from its neighbours (at corners the mean of the three that meet), so that no lookup branches at an edge.
+/// A cube map with its mip chain down to 1 x 1, laid out for filtered lookups: RGBA floats, each face with a
+/// border of one texel copied from its neighbours (at corners the mean of the three that meet), so that no
+/// lookup branches at an edge.
 class CubePyramid {
   public:
-    /// From faces of a power-of-two size, at most 4096. Levels are means weighted by solid angle, so that each holds the same flux.
+    /// From faces of a power-of-two size, at most 4096. Levels are means weighted by solid angle, so that
+    /// each holds the same flux.
     CubePyramid(std::span<const float> rgb, int size);
 
     int size() const { return size_; }
@@ -36,8 +39,8 @@ class CubePyramid {
     const std::vector<float>& texels() const { return texels_; }
     std::int32_t offset(int level) const { return offsets_[level]; }
 
-    /// Bilinear within a level, linear between; `lod` is clamped to the chain. Direction of any length but 0. The scalar
-    /// twin of the kernel's fetch.
+    /// Bilinear within a level, linear between; `lod` is clamped to the chain. Direction of any length but 0.
+    /// The scalar twin of the kernel's fetch.
     glm::vec3 sample(const glm::vec3& direction, float lod) const;
 
   private:
@@ -47,8 +50,8 @@ class CubePyramid {
     std::vector<float> texels_;
 };
 
-/// Sample directions of one level, shared by its texels and turned about each texel's normal by a hash. The arrays are
-/// padded to a multiple of 16 beyond `count`.
+/// Sample directions of one level, shared by its texels and turned about each texel's normal by a hash. The
+/// arrays are padded to a multiple of 16 beyond `count`.
 struct LdSamples {
     int count = 0;
     std::vector<float> x, y, z;  ///< unit vectors about +z with the density of the lobe
@@ -56,43 +59,47 @@ struct LdSamples {
 };
 
 /// The first `count` samples for alpha in (0, 1] on a pyramid whose level 0 has `base_size` texels a side.
-/// lod = log2(K Omega_s / Omega_p) / 2 with Omega_s = 1/(count k), and Omega_p = 4 / base_size^2 that of a texel in the
-/// middle of a face; the kernel corrects for where on the face the sample falls. K = `level_bias` > 0 trades bias (large)
-/// for noise (small). importance_sampling has a lod below every correction: level 0.
+/// lod = log2(K Omega_s / Omega_p) / 2 with Omega_s = 1/(count k), and Omega_p = 4 / base_size^2 that of a
+/// texel in the middle of a face; the kernel corrects for where on the face the sample falls. K =
+/// `level_bias` > 0 trades bias (large) for noise (small). importance_sampling has a lod below every
+/// correction: level 0.
 LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int base_size, double level_bias);
 
-/// Texels of a level of `size` by sampling: the unweighted mean over samples (their density is the whole lobe, NoL included,
-/// so a constant environment has no variance). `rgb_out` holds 3 floats a texel. Bits do not depend on the vector width, nor
-/// on which texels are asked for together: each turns the samples by a hash of (seed, size, texel).
+/// Texels of a level of `size` by sampling: the unweighted mean over samples (their density is the whole
+/// lobe, NoL included, so a constant environment has no variance). `rgb_out` holds 3 floats a texel. Bits do
+/// not depend on the vector width, nor on which texels are asked for together: each turns the samples by a
+/// hash of (seed, size, texel).
 void ld_sampled(const CubePyramid& pyramid, const LdSamples& samples, std::uint64_t seed, int size,
                 std::span<const CubeTexel> texels, std::span<float> rgb_out);
 
-/// Exact prefiltered radiance in `directions` (unit vectors, world) for alpha in (0, 1]: `rgb_out` holds 3 doubles each.
+/// Exact prefiltered radiance in `directions` (unit vectors, world) for alpha in (0, 1]: `rgb_out` holds 3
+/// doubles each.
 ///
-/// Sums k over all texels of the source, each integrated by Gauss-Legendre points, more of them the closer the texel is to
-/// the lobe against its own size. Divided by the sum of k's own weights, so that a constant environment is returned
-/// to float's rounding. Returns the largest |1 - integral of k| found, the quadrature's own check and about the relative
-/// error: below 3e-5 for pictures of 128 texels around and more, 2e-4 at 32, for alpha >= .003. Adds its kernel evaluations
-/// to `evaluations`.
+/// Sums k over all texels of the source, each integrated by Gauss-Legendre points, more of them the closer
+/// the texel is to the lobe against its own size. Divided by the sum of k's own weights, so that a constant
+/// environment is returned to float's rounding. Returns the largest |1 - integral of k| found, the
+/// quadrature's own check and about the relative error: below 3e-5 for pictures of 128 texels around and
+/// more, 2e-4 at 32, for alpha >= .003. Adds its kernel evaluations to `evaluations`.
 double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations);
 
 /// How LD is had.
 struct LdMethod {
     LdEstimator estimator = LdEstimator::exact;
-    int samples = 0;         ///< a texel; of the sampling estimators, as are those below
-    double level_bias = 1;   ///< K of make_ld_samples
+    int samples = 0;        ///< a texel; of the sampling estimators, as are those below
+    double level_bias = 1;  ///< K of make_ld_samples
     std::uint64_t seed = 0;
 };
 
 /// LD at one alpha, by any estimator. Keeps references: sources must outlive it.
 class LdIntegrator {
   public:
-    /// `source` is read by the exact estimator, `pyramid` by the others; the other one may be null. alpha in (0, 1].
+    /// `source` is read by the exact estimator, `pyramid` by the others; the other one may be null. alpha in
+    /// (0, 1].
     LdIntegrator(const LdMethod& method, double alpha, const PatchBlocks* source, const CubePyramid* pyramid);
 
-    /// Texels of a level of `size`; `rgb_out` holds 3 floats each. Texels that lie together cost the exact estimator
-    /// least. Returns the kernel evaluations or samples it took. Thread-safe.
+    /// Texels of a level of `size`; `rgb_out` holds 3 floats each. Texels that lie together cost the exact
+    /// estimator least. Returns the kernel evaluations or samples it took. Thread-safe.
     std::uint64_t integrate(int size, std::span<const CubeTexel> texels, std::span<float> rgb_out) const;
 
   private:

@@ -10,8 +10,9 @@
 
 namespace pbr {
 
-/// Points of a quadrature over a block, structure of arrays. Weights are solid angles in sr; radiance is not multiplied
-/// in. For every texel of the block the weights of its points sum to its exact solid angle, up to rounding to float.
+/// Points of a quadrature over a block, structure of arrays. Weights are solid angles in sr; radiance is not
+/// multiplied in. For every texel of the block the weights of its points sum to its exact solid angle, up to
+/// rounding to float.
 struct PatchPoints {
     std::vector<float> x, y, z;  ///< unit vectors in the world
     std::vector<float> weight;
@@ -44,7 +45,8 @@ class PatchBlocks {
     /// Points a texel and axis that points() offers, ascending.
     static constexpr int kOrders[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128};
 
-    /// Gauss-Legendre points of a block, kOrders[order_index] squared a texel, in place of what `points` held.
+    /// Gauss-Legendre points of a block, kOrders[order_index] squared a texel, in place of what `points`
+    /// held.
     void points(int block, int order_index, PatchPoints& points) const;
 
   private:
@@ -54,7 +56,8 @@ class PatchBlocks {
         Cone cone;
     };
     void add_blocks(int face, int width, int height);
-    glm::dvec3 direction(int face, double x, double y) const;  ///< of a continuous texel coordinate, unit, world
+    glm::dvec3 direction(int face, double x,
+                         double y) const;  ///< of a continuous texel coordinate, unit, world
     void equirect_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const;
     void cube_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const;
 

@@ -1,9 +1,9 @@
 #pragma once
 // Elementary functions whose bits do not depend on the C library or the CPU.
 //
-// The C library picks its sin, log and atan2 by CPU (with or without fused multiply-add), so their last bits differ
-// between machines. Baked bytes are promised, so whatever reaches them uses these: only + - * / and sqrt, in a fixed
-// order. Errors are against the exact function, measured by tests/libpbr/numerics.
+// The C library picks its sin, log and atan2 by CPU (with or without fused multiply-add), so their last bits
+// differ between machines. Baked bytes are promised, so whatever reaches them uses these: only + - * / and
+// sqrt, in a fixed order. Errors are against the exact function, measured by tests/libpbr/numerics.
 
 namespace pbr {
 
@@ -12,7 +12,8 @@ struct SinCos {
     double cos;
 };
 
-/// sin(pi x) and cos(pi x). Domain: |x| <= 2^51, else meaningless. Absolute error <= 2.3e-16; exact at multiples of 1/2.
+/// sin(pi x) and cos(pi x). Domain: |x| <= 2^51, else meaningless. Absolute error <= 2.3e-16; exact at
+/// multiples of 1/2.
 SinCos sin_cos_pi(double x);
 
 /// Natural logarithm. Domain: positive normal doubles (x <= 0 or NaN gives NaN, +Inf gives +Inf).

@@ -5,9 +5,10 @@
 
 namespace pbr {
 
-/// Neumaier's variant of Kahan summation: the error of a sum of n terms is about one rounding of the result plus
-/// n * 2^-106 times the sum of magnitudes, whatever the order of magnitude of the terms. Must not be compiled with
-/// fast-math. (Neumaier 1974, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen".)
+/// Neumaier's variant of Kahan summation: the error of a sum of n terms is about one rounding of the result
+/// plus n * 2^-106 times the sum of magnitudes, whatever the order of magnitude of the terms. Must not be
+/// compiled with fast-math. (Neumaier 1974, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher
+/// Summen".)
 class CompensatedSum {
   public:
     CompensatedSum& operator+=(double term) {
