@@ -68,8 +68,8 @@ void LdSampledLevel(benchmark::State& state) {
         benchmark::DoNotOptimize(row.data());
         ++at;
     }
-    state.counters["ns/sample"] = benchmark::Counter(
-        static_cast<double>(state.iterations()) * 128 * static_cast<double>(state.range(0)) * 1e-9,
+    state.counters["time/sample"] = benchmark::Counter(
+        static_cast<double>(state.iterations()) * 128 * static_cast<double>(state.range(0)),
         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(LdSampledLevel)->Arg(32)->Arg(1024);
@@ -84,8 +84,8 @@ void LdExactRow(benchmark::State& state) {
     std::uint64_t evaluations = 0;
     for (auto _ : state)
         pbr::ld_exact(blocks, static_cast<double>(state.range(0)) / 1000, directions, rgb, evaluations);
-    state.counters["ns/evaluation"] = benchmark::Counter(
-        static_cast<double>(evaluations) * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["time/evaluation"] = benchmark::Counter(
+        static_cast<double>(evaluations), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(LdExactRow)->Arg(10)->Arg(40)->Arg(360)->Arg(1000)->Unit(benchmark::kMillisecond);
 
