@@ -45,14 +45,20 @@ void Context::parallel_for(std::int64_t count, std::int64_t grain,
         return;
     }
     if (!workers_) workers_ = std::make_unique<Workers>(threads_);
+    struct PublishAtEnd {  // also when a body throws
+        ~PublishAtEnd() { publish(); }
+    };
+    struct ObserveAtEnd {
+        ~ObserveAtEnd() { observe(); }
+    };
     const std::function<void(std::int64_t)> task = [&](std::int64_t chunk) {
         observe();
+        const PublishAtEnd end;
         run_chunk(chunk);
-        publish();
     };
     publish();
+    const ObserveAtEnd end;
     workers_->for_each(chunks, task);
-    observe();
 }
 
 void Context::count(std::string_view effect, std::uint64_t evaluations) {
