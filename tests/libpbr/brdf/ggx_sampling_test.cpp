@@ -2,66 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <vector>
 
-#include "pbr/numerics/quadrature.hpp"
+#include "tests/libpbr/support/chi_square.hpp"
 
 namespace pbr {
 namespace {
-
-/// Chi-square of samples against a pdf over a grid of cos(theta) x phi; returns the p-value. `sample(u1, u2)`
-/// gives a direction, `pdf(direction)` its density per steradian.
-template <class Sample, class Pdf>
-double chi_square_p_value(const Sample& sample, const Pdf& pdf) {
-    constexpr int kRings = 16, kSectors = 16, kCount = 200'000, kSub = 24;
-    std::vector<double> observed(kRings * kSectors), expected(kRings * kSectors);
-    double outside = 0;
-    for (int i = 0; i < kCount; ++i) {
-        const Vec3<double> w = sample(random_unit(11, i, 0), random_unit(11, i, 1));
-        if (w.z < 0) {
-            ++outside;
-            continue;
-        }
-        const int ring = std::min(kRings - 1, static_cast<int>(w.z * kRings));
-        const int sector = std::min(kSectors - 1, static_cast<int>(azimuth_turns(w.x, w.y) * kSectors));
-        observed[ring * kSectors + sector] += 1;
-    }
-    EXPECT_EQ(outside, 0);
-    const QuadratureRule rule = gauss_legendre(kSub);
-    for (int ring = 0; ring < kRings; ++ring)
-        for (int sector = 0; sector < kSectors; ++sector)
-            for (int a = 0; a < kSub; ++a)
-                for (int b = 0; b < kSub; ++b) {
-                    const double z = (ring + rule.nodes[a]) / kRings,
-                                 turns = (sector + rule.nodes[b]) / kSectors;
-                    const double s = std::sqrt(1 - z * z);
-                    const Vec3<double> w(s * std::cos(2 * std::numbers::pi * turns),
-                                         s * std::sin(2 * std::numbers::pi * turns), z);
-                    expected[ring * kSectors + sector] += rule.weights[a] * rule.weights[b] * pdf(w) * 2 *
-                                                          std::numbers::pi / (kRings * kSectors) * kCount;
-                }
-    double statistic = 0, pooled_observed = 0, pooled_expected = 0;
-    int cells = 0;
-    for (std::size_t i = 0; i < observed.size(); ++i) {
-        if (expected[i] < 10) {
-            pooled_observed += observed[i];
-            pooled_expected += expected[i];
-            continue;
-        }
-        statistic += (observed[i] - expected[i]) * (observed[i] - expected[i]) / expected[i];
-        ++cells;
-    }
-    if (pooled_expected > 5) {
-        statistic +=
-            (pooled_observed - pooled_expected) * (pooled_observed - pooled_expected) / pooled_expected;
-        ++cells;
-    }
-    return boost::math::cdf(complement(boost::math::chi_squared(cells - 1), statistic));
-}
-
-constexpr double kSignificance = 1e-4;
 
 TEST(GgxNdfSampling, MatchesItsDensity) {
     for (const double alpha : {0.2, 0.5, 1.0})

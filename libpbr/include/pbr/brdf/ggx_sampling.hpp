@@ -7,17 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 #include <numbers>
 
 #include "pbr/brdf/ggx.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/sequence.hpp"
+#include "pbr/numerics/vector.hpp"
 
 namespace pbr {
-
-template <class T>
-using Vec3 = glm::vec<3, T, glm::defaultp>;
 
 /// Turns in [0, 1) of the azimuth of (x, y).
 template <class T>
