@@ -21,6 +21,7 @@ struct EquirectView {
     int height = 0;
     glm::dmat3 world_to_source{1.0};
 
+    /// RGB of column x, row y.
     const float* texel(int x, int y) const { return rgb + (static_cast<long>(y) * width + x) * 3; }
 };
 
@@ -29,6 +30,7 @@ struct CubeView {
     const float* rgb = nullptr;
     int size = 0;
 
+    /// RGB of column x, row y of a face.
     const float* texel(int face, int x, int y) const {
         return rgb + ((static_cast<long>(face) * size + y) * size + x) * 3;
     }

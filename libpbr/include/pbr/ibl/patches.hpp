@@ -17,7 +17,9 @@ struct PatchPoints {
     std::vector<float> x, y, z;  ///< unit vectors in the world
     std::vector<float> weight;
     std::vector<float> r, g, b;  ///< radiance
+    /// How many points.
     std::size_t size() const { return x.size(); }
+    /// Makes all arrays `count` long.
     void resize(std::size_t count);
 };
 
@@ -33,10 +35,13 @@ double angle_of_chord(double chord);
 /// A picture cut into blocks of up to 8 x 8 texels. Keeps a view: the picture must outlive it.
 class PatchBlocks {
   public:
+    /// Blocks of a picture of any size from 1 x 1.
     explicit PatchBlocks(const EquirectView& source);
     explicit PatchBlocks(const CubeView& source);
 
+    /// How many blocks.
     int count() const { return static_cast<int>(blocks_.size()); }
+    /// Of block 0 … count() - 1.
     const Cone& cone(int block) const { return blocks_[block].cone; }
 
     /// The largest angle a texel of the picture spans along either axis, radians.
