@@ -2,7 +2,9 @@
 // An environment as blocks of small constant patches, for exact sums over it.
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "pbr/ibl/environment.hpp"
@@ -38,6 +40,8 @@ class PatchBlocks {
     /// Blocks of a picture of any size from 1 x 1.
     explicit PatchBlocks(const EquirectView& source);
     explicit PatchBlocks(const CubeView& source);
+    /// Single texels (x, y) of a picture, each a block.
+    PatchBlocks(const EquirectView& source, std::span<const glm::ivec2> texels);
 
     /// How many blocks.
     int count() const { return static_cast<int>(blocks_.size()); }
@@ -61,6 +65,7 @@ class PatchBlocks {
         Cone cone;
     };
     void add_blocks(int face, int width, int height);
+    void add_block(Block block);
     glm::dvec3 direction(int face, double x,
                          double y) const;  ///< of a continuous texel coordinate, unit, world
     void equirect_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const;
