@@ -62,6 +62,12 @@ pbr::PatchBlocks Environment::blocks() const {
     return is_cube() ? pbr::PatchBlocks(cube_) : pbr::PatchBlocks(equirect_);
 }
 
+pbr::LdHarmonic Environment::harmonic(double smallest_alpha, double max_error,
+                                      const pbr::ForEach& each) const {
+    return is_cube() ? pbr::LdHarmonic(cube_, smallest_alpha, max_error, each)
+                     : pbr::LdHarmonic(equirect_, smallest_alpha, max_error, each);
+}
+
 double Environment::energy() const {
     pbr::CompensatedSum flux;
     const auto add = [&](const float* rgb, double solid_angle) {

@@ -8,6 +8,7 @@
 #include "bakers/image.hpp"
 #include "bakers/probe/params.hpp"
 #include "pbr/ibl/environment.hpp"
+#include "pbr/ibl/ld_harmonic.hpp"
 #include "pbr/ibl/patches.hpp"
 
 namespace pbrbake::probe {
@@ -24,6 +25,9 @@ class Environment {
     int equivalent_size() const;
 
     pbr::PatchBlocks blocks() const;
+
+    /// Its transform for lobes of alpha >= smallest_alpha.
+    pbr::LdHarmonic harmonic(double smallest_alpha, double max_error, const pbr::ForEach& each) const;
 
     /// Radiance times solid angle over all texels and channels.
     double energy() const;

@@ -14,69 +14,109 @@ namespace {
 
 constexpr double kBrightShare = 1e-3, kBrightOverMean = 20;
 
+/// Rows of texels of a picture, those of a cube map's faces one after the other.
+int row_count(const EquirectView& source) { return source.height; }
+int row_count(const CubeView& source) { return 6 * source.size; }
+int row_width(const EquirectView& source) { return source.width; }
+int row_width(const CubeView& source) { return source.size; }
+CubeTexel texel_of(const EquirectView&, int row, int x) { return {0, x, row}; }
+CubeTexel texel_of(const CubeView& source, int row, int x) {
+    return {row / source.size, x, row % source.size};
+}
+const float* rgb_of(const EquirectView& source, const CubeTexel& texel) {
+    return source.texel(texel.x, texel.y);
+}
+const float* rgb_of(const CubeView& source, const CubeTexel& texel) {
+    return source.texel(texel.face, texel.x, texel.y);
+}
+
+/// Solid angles; a cube map's by the density at the centre, which is near enough to choose texels by.
+double solid_angle_of(const EquirectView& source, const CubeTexel& texel) {
+    return equirect_texel_solid_angle(source.width, source.height, texel.y);
+}
+double solid_angle_of(const CubeView& source, const CubeTexel& texel) {
+    const double s = cube_coordinate(texel.x, source.size), t = cube_coordinate(texel.y, source.size);
+    const double q = 1 + s * s + t * t;
+    return 4.0 / source.size / source.size / (q * std::sqrt(q));
+}
+
 struct RowLight {
-    std::array<double, 3> sum{};
+    std::array<double, 3> flux{};
     std::array<float, 3> largest{};
 };
 
-/// Texels, by rows, that hold more than their share of any channel's light.
-std::vector<glm::ivec2> bright_texels(const EquirectView& source, const ForEach& each) {
-    std::vector<RowLight> rows(static_cast<std::size_t>(source.height));
-    each(source.height, [&](int y) {
-        RowLight& row = rows[static_cast<std::size_t>(y)];
-        const float* texel = source.texel(0, y);
-        for (int x = 0; x < source.width; ++x, texel += 3)
-            for (std::size_t c = 0; c < 3; ++c) {
-                row.sum[c] += static_cast<double>(texel[c]);
-                row.largest[c] = std::max(row.largest[c], texel[c]);
-            }
-    });
-    std::array<double, 3> flux{};
-    for (int y = 0; y < source.height; ++y)
-        for (std::size_t c = 0; c < 3; ++c)
-            flux[c] += rows[static_cast<std::size_t>(y)].sum[c] *
-                       equirect_texel_solid_angle(source.width, source.height, y);
-    std::vector<glm::ivec2> bright;
-    for (int y = 0; y < source.height; ++y) {
-        const double solid_angle = equirect_texel_solid_angle(source.width, source.height, y);
-        std::array<double, 3> threshold;
-        bool any = false;
+template <class View>
+RowLight light_of_row(const View& source, int row) {
+    RowLight light;
+    for (int x = 0; x < row_width(source); ++x) {
+        const CubeTexel texel = texel_of(source, row, x);
+        const double solid_angle = solid_angle_of(source, texel);
         for (std::size_t c = 0; c < 3; ++c) {
-            threshold[c] = std::max(kBrightShare * flux[c] / solid_angle,
-                                    kBrightOverMean * flux[c] / (4 * std::numbers::pi));
-            any |= rows[static_cast<std::size_t>(y)].largest[c] > threshold[c];
-        }
-        if (!any) continue;
-        for (int x = 0; x < source.width; ++x) {
-            const float* texel = source.texel(x, y);
-            if (texel[0] > threshold[0] || texel[1] > threshold[1] || texel[2] > threshold[2])
-                bright.push_back({x, y});
+            const float value = rgb_of(source, texel)[c];
+            light.flux[c] += solid_angle * static_cast<double>(value);
+            light.largest[c] = std::max(light.largest[c], value);
         }
     }
-    return bright;
+    return light;
 }
 
-/// Degrees to analyse: up to where |k_l|, which falls like x K1(x) at x = 2 alpha l, is a tenth of the error;
-/// and enough for the kink of wide lobes at the horizon, whose tail falls like l^-5/2.
-int bands_to_analyse(double alpha, double max_error) {
-    const double digits = std::clamp(-log2_exact(max_error) / log2_exact(10), 1.0, 6.0);
-    const double for_the_peak = (1.7 + 1.2 * digits) / alpha;
-    const double for_the_kink = 32 * std::pow(2.0, digits - 1);
-    return static_cast<int>(std::ceil(std::max(for_the_peak, for_the_kink)));
+/// Texels, by rows, that hold more than their share of any channel's light.
+template <class View>
+std::vector<CubeTexel> find_bright_texels(const View& source, const ForEach& each) {
+    std::vector<RowLight> rows(static_cast<std::size_t>(row_count(source)));
+    each(row_count(source),
+         [&](int row) { rows[static_cast<std::size_t>(row)] = light_of_row(source, row); });
+    std::array<double, 3> flux{};
+    for (const RowLight& row : rows)
+        for (std::size_t c = 0; c < 3; ++c) flux[c] += row.flux[c];
+    std::vector<CubeTexel> bright;
+    for (int row = 0; row < row_count(source); ++row)
+        for (int x = 0; x < row_width(source); ++x) {
+            const CubeTexel texel = texel_of(source, row, x);
+            const double solid_angle = solid_angle_of(source, texel);
+            bool of_row = false, of_texel = false;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double value = static_cast<double>(rgb_of(source, texel)[c]);
+                const double mean = flux[c] / (4 * std::numbers::pi);
+                of_texel |= value * solid_angle > kBrightShare * flux[c] && value > kBrightOverMean * mean;
+                of_row |= static_cast<double>(rows[static_cast<std::size_t>(row)].largest[c]) >
+                          kBrightOverMean * mean;
+            }
+            if (!of_row) break;
+            if (of_texel) bright.push_back(texel);
+        }
+    return bright;
 }
 
 }  // namespace
 
 LdHarmonic::LdHarmonic(const EquirectView& source, double smallest_alpha, double max_error,
                        const ForEach& each)
-    : max_error_(max_error),
-      points_a_row_(pbr::points_a_row(source.height, smallest_alpha, max_error)),
-      bright_(pbr::bright_texels(source, each)) {
-    assert(smallest_alpha > 0 && smallest_alpha <= 1 && max_error > 0);
+    : max_error_(max_error), bright_(find_bright_texels(source, each)) {
+    prepare(source, source.height, smallest_alpha, each);
+}
+
+LdHarmonic::LdHarmonic(const CubeView& source, double smallest_alpha, double max_error, const ForEach& each)
+    : max_error_(max_error), bright_(find_bright_texels(source, each)) {
+    prepare(source, 2 * source.size, smallest_alpha,
+            each);  // texels are pi / (2 size) high at the middle of a face
+}
+
+template <class View>
+void LdHarmonic::prepare(const View& source, int rows, double smallest_alpha, const ForEach& each) {
+    assert(smallest_alpha > 0 && smallest_alpha <= 1 && max_error_ > 0);
     if (!bright_.empty()) bright_blocks_.emplace(source, bright_);
-    spectrum_.emplace(source, bands_to_analyse(smallest_alpha, max_error), points_a_row_, each, bright_);
+    spectrum_.emplace(source, bands_for(smallest_alpha, max_error_),
+                      points_a_row(rows, smallest_alpha, max_error_), each, bright_);
     const std::span<const double, 6> average = spectrum_->coefficient(0, 0);
     mean_ = (average[0] + average[2] + average[4]) / 3 / std::sqrt(4 * std::numbers::pi);
+}
+
+int LdHarmonic::bands_for(double alpha, double max_error) {
+    const double digits = std::clamp(-log2_exact(max_error) / log2_exact(10), 1.0, 6.0);
+    const double for_the_peak = (1.7 + 1.2 * digits) / alpha;
+    const double for_the_kink = 32 * std::pow(2.0, digits - 1);
+    return static_cast<int>(std::ceil(std::max(for_the_peak, for_the_kink)));
 }
 
 LdHarmonic::Level::Level(const LdHarmonic& of, double alpha, const ForEach& each)

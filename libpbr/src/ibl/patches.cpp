@@ -15,6 +15,10 @@ namespace {
 
 constexpr int kBlockSide = 8;
 
+double texel_angle_of(const EquirectView& source) {
+    return std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height);
+}
+
 std::vector<QuadratureRule> rules_of_orders() {
     std::vector<QuadratureRule> rules;
     for (const int order : PatchBlocks::kOrders) rules.push_back(gauss_legendre(order));
@@ -33,9 +37,7 @@ void PatchPoints::resize(std::size_t count) {
 }
 
 PatchBlocks::PatchBlocks(const EquirectView& source)
-    : equirect_(source),
-      texel_angle_(std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height)),
-      rules_(rules_of_orders()) {
+    : equirect_(source), texel_angle_(texel_angle_of(source)), rules_(rules_of_orders()) {
     add_blocks(0, source.width, source.height);
 }
 
@@ -51,11 +53,14 @@ glm::dvec3 PatchBlocks::direction(int face, double x, double y) const {
            equirect_direction(x / equirect_.width, y / equirect_.height);
 }
 
-PatchBlocks::PatchBlocks(const EquirectView& source, std::span<const glm::ivec2> texels)
-    : equirect_(source),
-      texel_angle_(std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height)),
-      rules_(rules_of_orders()) {
-    for (const glm::ivec2& texel : texels) add_block({0, texel.x, texel.y, 1, 1, {}});
+PatchBlocks::PatchBlocks(const EquirectView& source, std::span<const CubeTexel> texels)
+    : equirect_(source), texel_angle_(texel_angle_of(source)), rules_(rules_of_orders()) {
+    for (const CubeTexel& texel : texels) add_block({0, texel.x, texel.y, 1, 1, {}});
+}
+
+PatchBlocks::PatchBlocks(const CubeView& source, std::span<const CubeTexel> texels)
+    : cube_(source), texel_angle_(2.0 / source.size), rules_(rules_of_orders()) {
+    for (const CubeTexel& texel : texels) add_block({texel.face, texel.x, texel.y, 1, 1, {}});
 }
 
 void PatchBlocks::add_blocks(int face, int width, int height) {

@@ -14,11 +14,11 @@
 #include <array>
 #include <functional>
 #include <glm/mat3x3.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
+#include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 
 namespace pbr {
@@ -30,6 +30,8 @@ using ForEach = std::function<void(int count, const std::function<void(int)>& bo
 /// One call after the other.
 void for_each_in_turn(int count, const std::function<void(int)>& body);
 
+class RingModes;
+
 /// The coefficients E_lm of a picture's three channels for degrees 0 … bands and orders 0 … l, real and
 /// imaginary parts, to orthonormal harmonics without the Condon-Shortley phase in the picture's own (u, v):
 /// azimuth 2 pi u, colatitude pi v. Orders below 0 are their conjugates, the picture being real.
@@ -37,10 +39,16 @@ class HarmonicSpectrum {
   public:
     /// Transforms a picture that is constant over each texel: exactly in azimuth, in colatitude by
     /// `points_a_row` Gauss-Legendre points weighted by sine, which sum to the row's exact area. bands >= 0,
-    /// points_a_row >= 1 (see points_a_row()). Texels listed in `without` (x, y; rows ascending) count as
+    /// points_a_row >= 1 (see points_a_row()). Texels listed in `without` (face 0, rows ascending) count as
     /// black. Relative error of a coefficient below 1e-12 apart from the points.
     HarmonicSpectrum(const EquirectView& source, int bands, int points_a_row, const ForEach& each,
-                     std::span<const glm::ivec2> without = {});
+                     std::span<const CubeTexel> without = {});
+
+    /// Transforms a cube map: each texel as points_a_side^2 Gauss-Legendre points that sum to its exact solid
+    /// angle, spread over a finer grid by the transpose of 6 x 6 interpolation, whose error at degree l is
+    /// about (l / (3 bands))^6. The picture's frame is the cube's own, with u and v as of an equirect.
+    HarmonicSpectrum(const CubeView& source, int bands, int points_a_side, const ForEach& each,
+                     std::span<const CubeTexel> without = {});
 
     /// The highest degree.
     int bands() const { return bands_; }
@@ -58,6 +66,9 @@ class HarmonicSpectrum {
     const glm::dmat3& world_to_source() const { return world_to_source_; }
 
   private:
+    HarmonicSpectrum(int bands, const glm::dmat3& world_to_source);
+    void integrate(RingModes& modes, const std::vector<double>& colatitudes_rad,
+                   const std::vector<double>& weights, int points_a_ring, const ForEach& each);
     std::size_t start(int order) const;
     int bands_;
     glm::dmat3 world_to_source_;

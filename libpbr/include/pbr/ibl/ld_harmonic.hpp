@@ -8,12 +8,12 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/ibl/harmonic_filter.hpp"
 #include "pbr/ibl/patches.hpp"
@@ -27,6 +27,7 @@ class LdHarmonic {
     /// error of a level over its mean stays below max_error > 0 (measured: a tenth of it and less). The
     /// picture must outlive this.
     LdHarmonic(const EquirectView& source, double smallest_alpha, double max_error, const ForEach& each);
+    LdHarmonic(const CubeView& source, double smallest_alpha, double max_error, const ForEach& each);
 
     /// One roughness. Must not outlive the LdHarmonic it came from.
     class Level {
@@ -58,6 +59,11 @@ class LdHarmonic {
     /// Prepares a level. alpha in [smallest_alpha, 1].
     Level level(double alpha, const ForEach& each) const { return {*this, alpha, each}; }
 
+    /// Degrees that lobes of alpha in (0, 1] need for an error: up to where |k_l|, which falls like x K1(x)
+    /// at x = 2 alpha l, is a tenth of it, and enough for the kink of wide lobes at the horizon, whose tail
+    /// falls like l^-5/2.
+    static int bands_for(double alpha, double max_error);
+
     /// The highest degree analysed.
     int bands() const { return spectrum_->bands(); }
 
@@ -65,13 +71,12 @@ class LdHarmonic {
     /// times its mean.
     int bright_texels() const { return static_cast<int>(bright_.size()); }
 
-    /// Gauss points a row of the picture that the transform took.
-    int points_a_row() const { return points_a_row_; }
-
   private:
+    template <class View>
+    void prepare(const View& source, int rows, double smallest_alpha, const ForEach& each);
+
     double max_error_;
-    int points_a_row_;
-    std::vector<glm::ivec2> bright_;
+    std::vector<CubeTexel> bright_;
     std::optional<PatchBlocks> bright_blocks_;
     std::optional<HarmonicSpectrum> spectrum_;
     double mean_;  ///< of what is left, over channels

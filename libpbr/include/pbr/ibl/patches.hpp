@@ -2,11 +2,11 @@
 // An environment as blocks of small constant patches, for exact sums over it.
 
 #include <cstddef>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
+#include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/numerics/quadrature.hpp"
 
@@ -40,8 +40,9 @@ class PatchBlocks {
     /// Blocks of a picture of any size from 1 x 1.
     explicit PatchBlocks(const EquirectView& source);
     explicit PatchBlocks(const CubeView& source);
-    /// Single texels (x, y) of a picture, each a block.
-    PatchBlocks(const EquirectView& source, std::span<const glm::ivec2> texels);
+    /// Some texels of a picture (of face 0 of an equirect), each a block.
+    PatchBlocks(const EquirectView& source, std::span<const CubeTexel> texels);
+    PatchBlocks(const CubeView& source, std::span<const CubeTexel> texels);
 
     /// How many blocks.
     int count() const { return static_cast<int>(blocks_.size()); }
