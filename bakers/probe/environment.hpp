@@ -32,12 +32,14 @@ class Environment {
     /// Radiance times solid angle over all texels and channels.
     double energy() const;
 
-    /// One row of a face of a cube of `size`: the mean over each texel where texels grow, bilinear where they
-    /// shrink.
+    /// One row of a face, by the slower and more exact way: what resample() is held against.
     void resample_row(int size, int face, int y, std::span<float> rgb_out) const;
 
+    /// A whole cube of `size` (faces, rows, RGB): the mean over each texel, or bilinear where they shrink.
+    void resample(int size, const pbr::ForEach& each, std::span<float> rgb_out) const;
+
     /// The mean over each texel, whatever the size.
-    void resample_area_row(int size, int face, int y, std::span<float> rgb_out) const;
+    void resample_area(int size, const pbr::ForEach& each, std::span<float> rgb_out) const;
 
   private:
     pbr::EquirectView equirect_;

@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kLargestPyramid = 1024;  // 134 MB of RGBA floats; far finer than any lobe that is sampled
 
-Level empty_level(int size) {
-    return {size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)};
-}
-
 /// What fills texels of a level of `size` with RGB, and returns its evaluations.
 using Filter =
     std::function<std::uint64_t(int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb)>;
@@ -74,9 +70,8 @@ pbr::CubePyramid make_pyramid(const ProbeParams& params, const Environment& envi
     const int base = pyramid_size(params, environment);
     if (base == params.size && base <= environment.equivalent_size()) return {level_0.texels, base};
     context.expect(6.0 * base * base);
-    const Level resampled = filled_by_rows(context, base, [&](int face, int y, std::span<float> rgb) {
-        environment.resample_area_row(base, face, y, rgb);
-    });
+    Level resampled = empty_level(base);
+    environment.resample_area(base, each_on(context, base), resampled.texels);
     return {resampled.texels, base};
 }
 
@@ -116,10 +111,7 @@ Json sum_levels(const ProbeParams& params, const Environment& environment, Conte
 Json solve_levels(const ProbeParams& params, const Method& method, const Environment& environment,
                   Context& context, Image& image) {
     if (level_count(params) < 2) return Json::array();
-    const pbr::ForEach each = [&](int count, const std::function<void(int)>& body) {
-        context.parallel_for(count, 1,
-                             [&](std::int64_t begin, std::int64_t) { body(static_cast<int>(begin)); });
-    };
+    const pbr::ForEach each = each_on(context, 0);
     const pbr::LdHarmonic harmonic = environment.harmonic(alpha_of_level(params, 1), method.max_error, each);
     Json notes = Json::array();
     fill_levels(params, 0.1, context, image, [&](int, double alpha) {
@@ -139,18 +131,19 @@ Json solve_levels(const ProbeParams& params, const Method& method, const Environ
 
 }  // namespace
 
-Level filled_by_rows(Context& context, int size,
-                     const std::function<void(int face, int y, std::span<float> rgb)>& row) {
-    Level level = empty_level(size);
-    const std::size_t stride = static_cast<std::size_t>(size) * 3;
-    context.parallel_for(6 * size, std::max(1, 64 / size), [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) {
-            row(static_cast<int>(i / size), static_cast<int>(i % size),
-                std::span(&level.texels[static_cast<std::size_t>(i) * stride], stride));
-            context.advance(size);
-        }
-    });
-    return level;
+Level empty_level(int size) {
+    return {size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)};
+}
+
+pbr::ForEach each_on(Context& context, double work) {
+    return [&context, work](int count, const std::function<void(int)>& body) {
+        const std::int64_t grain =
+            std::max(1, count / 512);  // few enough tasks to cost nothing, enough to share
+        context.parallel_for(count, grain, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t i = begin; i < end; ++i) body(static_cast<int>(i));
+            context.advance(work * static_cast<double>(end - begin));
+        });
+    };
 }
 
 Json filter_levels(const ProbeParams& params, const Method& method, const Environment& environment,

@@ -11,9 +11,11 @@
 
 namespace pbrbake::probe {
 
-/// A cube of `size`, each row by row(face, y, RGB of the row) on the workers.
-Level filled_by_rows(Context& context, int size,
-                     const std::function<void(int face, int y, std::span<float> rgb)>& row);
+/// A black cube of `size`.
+Level empty_level(int size);
+
+/// The context's workers as libpbr takes them; each body is `work` for the progress bar.
+pbr::ForEach each_on(Context& context, double work);
 
 /// Levels from 1 on into image.levels, whose level 0 is there. Returns what there is to say of each: its
 /// samples, or the band limit and what it leaves out.

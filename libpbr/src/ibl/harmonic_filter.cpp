@@ -67,10 +67,6 @@ RowPoints row_points(int height, int points) {
 
 }  // namespace
 
-void for_each_in_turn(int count, const std::function<void(int)>& body) {
-    for (int i = 0; i < count; ++i) body(i);
-}
-
 int points_a_row(int height, double alpha, double max_error) {
     // A Gauss rule of n points acts on degree l as the exact mean over a row of height h up to (l h)^(2n)
     // n!^4 /

@@ -12,7 +12,6 @@
 // spectrum.
 
 #include <array>
-#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -20,15 +19,9 @@
 
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
+#include "pbr/numerics/for_each.hpp"
 
 namespace pbr {
-
-/// Calls body(i) for every i in [0, count), in any order, perhaps at the same time. Callers bring the
-/// threads.
-using ForEach = std::function<void(int count, const std::function<void(int)>& body)>;
-
-/// One call after the other.
-void for_each_in_turn(int count, const std::function<void(int)>& body);
 
 class RingModes;
 
