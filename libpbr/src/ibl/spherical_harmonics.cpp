@@ -9,13 +9,13 @@
 namespace pbr {
 namespace {
 
-/// The first of PatchBlocks::kOrders that integrates Y over a texel within 1e-9. Over a texel of angle h, Y of band l is
-/// about a wave of phase l h; n points leave (l h)^(2n) (n!)^4 / ((2n+1) ((2n)!)^3) of it.
+/// The first of PatchBlocks::kOrders that integrates Y over a texel within 1e-9. Over a texel of angle h, Y
+/// of band l is about a wave of phase l h; n points leave (l h)^(2n) (n!)^4 / ((2n+1) ((2n)!)^3) of it.
 int order_for(double phase) {
     for (int i = 0; i < static_cast<int>(std::size(PatchBlocks::kOrders)); ++i) {
         const int n = PatchBlocks::kOrders[i];
-        const double log_error =
-            2 * n * std::log(phase) + 4 * std::lgamma(n + 1) - 3 * std::lgamma(2 * n + 1) - std::log(2 * n + 1);
+        const double log_error = 2 * n * std::log(phase) + 4 * std::lgamma(n + 1) -
+                                 3 * std::lgamma(2 * n + 1) - std::log(2 * n + 1);
         if (log_error < std::log(1e-9)) return i;
     }
     return static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
@@ -25,7 +25,8 @@ int order_for(double phase) {
 
 std::vector<glm::dvec3> sh_project(const PatchBlocks& source, int bands) {
     assert(bands >= 1);
-    // Phase of the highest band over a texel; not below 1/8, so that the texel's own area element is integrated as well.
+    // Phase of the highest band over a texel; not below 1/8, so that the texel's own area element is
+    // integrated as well.
     const int order = order_for(std::max(bands * source.texel_angle(), 0.125));
     std::vector<glm::dvec3> coefficients(sh_count(bands), glm::dvec3(0));
     std::vector<double> basis(sh_count(bands));

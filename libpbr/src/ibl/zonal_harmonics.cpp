@@ -25,8 +25,8 @@ double zonal_cosine(int l) {
 
 std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands) {
     assert(bands >= 1);
-    // Panels in 1 - mu: the core, of width alpha^2, then doubling up to the horizon. The widest spans 60 degrees, over which
-    // the highest band waves bands/6 times.
+    // Panels in 1 - mu: the core, of width alpha^2, then doubling up to the horizon. The widest spans 60
+    // degrees, over which the highest band waves bands/6 times.
     const QuadratureRule rule = gauss_legendre(24 + bands / 2);
     std::vector<double> coefficients(bands), polynomials(bands);
     double low = 0, high = std::min(1.0, kernel.alpha() * kernel.alpha());
@@ -45,8 +45,8 @@ std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands) {
 
 namespace {
 
-/// The least value of a function of a few bands: a grid of directions finer than the highest band's waves, then Newton-free
-/// descent from the lowest of them by shrinking steps along the tangents.
+/// The least value of a function of a few bands: a grid of directions finer than the highest band's waves,
+/// then Newton-free descent from the lowest of them by shrinking steps along the tangents.
 class MinimumFinder {
   public:
     explicit MinimumFinder(int bands) : bands_(bands) {
@@ -67,7 +67,8 @@ class MinimumFinder {
         double value = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < directions_.size(); ++i) {
             double sum = 0;
-            for (int j = 0; j < sh_count(bands_); ++j) sum += coefficients[j] * basis_[i * sh_count(bands_) + j];
+            for (int j = 0; j < sh_count(bands_); ++j)
+                sum += coefficients[j] * basis_[i * sh_count(bands_) + j];
             if (sum < value) value = sum, lowest = i;
         }
         return descend(coefficients, directions_[lowest], value);

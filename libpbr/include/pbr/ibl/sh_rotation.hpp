@@ -13,17 +13,19 @@
 
 namespace pbr {
 
-/// The matrices that rotate coefficients, one a band: Y(R d) = M Y(d), and a function f with coefficients c becomes
-/// f(R^-1 d) with coefficients M c.
+/// The matrices that rotate coefficients, one a band: Y(R d) = M Y(d), and a function f with coefficients c
+/// becomes f(R^-1 d) with coefficients M c.
 ///
-/// Ivanic & Ruedenberg's recursion over bands (1996, "Rotation matrices for real spherical harmonics. Direct determination by
-/// recursion", J. Phys. Chem. 100, eqs. 6-8 and tables 1-2) with the corrections of 1998 (J. Phys. Chem. A 102, p. 9099), and
-/// one that their correction still lacks: for m < 0, V takes P(1, m+1) (1 - delta(m, -1)) + P(-1, -m-1) sqrt(1 + delta(m, -1)).
-/// Orthogonal within 2e-14 for 16 bands in double, 2e-5 in float. Memory and time grow with bands^3.
+/// Ivanic & Ruedenberg's recursion over bands (1996, "Rotation matrices for real spherical harmonics. Direct
+/// determination by recursion", J. Phys. Chem. 100, eqs. 6-8 and tables 1-2) with the corrections of 1998 (J.
+/// Phys. Chem. A 102, p. 9099), and one that their correction still lacks: for m < 0, V takes P(1, m+1) (1 -
+/// delta(m, -1)) + P(-1, -m-1) sqrt(1 + delta(m, -1)). Orthogonal within 2e-14 for 16 bands in double, 2e-5
+/// in float. Memory and time grow with bands^3.
 template <class T>
 class ShRotation {
   public:
-    /// `rotation` takes directions to rotated directions; it must be orthogonal with determinant 1. bands >= 1.
+    /// `rotation` takes directions to rotated directions; it must be orthogonal with determinant 1. bands
+    /// >= 1.
     ShRotation(int bands, const glm::mat<3, 3, T>& rotation) : bands_(bands) {
         assert(bands >= 1);
         matrices_.resize(bands);
@@ -32,7 +34,8 @@ class ShRotation {
         constexpr int kAxis[3] = {1, 2, 0};  // band 1 is (y, z, x)
         matrices_[1].resize(9);
         for (int m = 0; m < 3; ++m)
-            for (int n = 0; n < 3; ++n) matrices_[1][m * 3 + n] = rotation[kAxis[n]][kAxis[m]];  // GLM: column, row
+            for (int n = 0; n < 3; ++n)
+                matrices_[1][m * 3 + n] = rotation[kAxis[n]][kAxis[m]];  // GLM: column, row
         for (int l = 2; l < bands; ++l) {
             matrices_[l].resize((2 * l + 1) * (2 * l + 1));
             for (int m = -l; m <= l; ++m)
@@ -78,7 +81,8 @@ class ShRotation {
         const int a = std::abs(m);
         const T d = static_cast<T>(std::abs(n) < l ? (l + n) * (l - n) : 2 * l * (2 * l - 1));
         const T u = std::sqrt(static_cast<T>((l + m) * (l - m)) / d);
-        const T v = std::sqrt(static_cast<T>((m == 0 ? 2 : 1) * (l + a - 1) * (l + a)) / d) / T(m == 0 ? -2 : 2);
+        const T v =
+            std::sqrt(static_cast<T>((m == 0 ? 2 : 1) * (l + a - 1) * (l + a)) / d) / T(m == 0 ? -2 : 2);
         const T w = m == 0 ? T(0) : -std::sqrt(static_cast<T>((l - a - 1) * (l - a)) / d) / T(2);
         // Where a factor is 0 its term would read outside band l - 1.
         T sum = v * v_term(l, m, n);

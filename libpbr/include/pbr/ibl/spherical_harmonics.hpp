@@ -1,11 +1,11 @@
 #pragma once
 // Real orthonormal spherical harmonics. T is float or double.
 //
-// Convention: no Condon-Shortley phase, so Y_1 = sqrt(3/4pi) (y, z, x) for m = -1, 0, 1, all with a plus sign, as in
-// Ramamoorthi & Hanrahan (2001, "An efficient representation for irradiance environment maps", eq. 3) and engines that
-// follow them. DirectX's D3DXSH and Sloan (2013, "Efficient spherical harmonic evaluation") have the phase: multiply the
-// coefficient (l, m) by (-1)^m to go from one to the other. Orthonormal: the integral of Y_i Y_j over the sphere is 1
-// for i = j, else 0.
+// Convention: no Condon-Shortley phase, so Y_1 = sqrt(3/4pi) (y, z, x) for m = -1, 0, 1, all with a plus
+// sign, as in Ramamoorthi & Hanrahan (2001, "An efficient representation for irradiance environment maps",
+// eq. 3) and engines that follow them. DirectX's D3DXSH and Sloan (2013, "Efficient spherical harmonic
+// evaluation") have the phase: multiply the coefficient (l, m) by (-1)^m to go from one to the other.
+// Orthonormal: the integral of Y_i Y_j over the sphere is 1 for i = j, else 0.
 //
 //     Y_l0  = K_l0 P_l(z)        Y_lm = sqrt2 K_lm P_l^m(z) cos(m phi)       Y_l,-m = the same with sin
 //
@@ -28,7 +28,8 @@ constexpr int sh_index(int l, int m) { return l * l + l + m; }
 /// Number of coefficients of `bands` bands.
 constexpr int sh_count(int bands) { return bands * bands; }
 
-/// Y of the first three bands in closed form, `direction` a unit vector. Within 4 ulp of the largest coefficient.
+/// Y of the first three bands in closed form, `direction` a unit vector. Within 4 ulp of the largest
+/// coefficient.
 template <class T>
 std::array<T, 9> sh_evaluate3(const Vec3<T>& direction) {
     const T x = direction.x, y = direction.y, z = direction.z;
@@ -37,15 +38,22 @@ std::array<T, 9> sh_evaluate3(const Vec3<T>& direction) {
     static const T k1 = static_cast<T>(std::sqrt(3 / (4 * kPi)));
     static const T k2 = static_cast<T>(std::sqrt(15 / (4 * kPi)));
     static const T k20 = static_cast<T>(std::sqrt(5 / (16 * kPi)));
-    return {k0,         k1 * y,                     k1 * z,     k1 * x, k2 * x * y,
-            k2 * y * z, k20 * (T(3) * z * z - T(1)), k2 * x * z, k2 / T(2) * (x - y) * (x + y)};
+    return {k0,
+            k1 * y,
+            k1 * z,
+            k1 * x,
+            k2 * x * y,
+            k2 * y * z,
+            k20 * (T(3) * z * z - T(1)),
+            k2 * x * z,
+            k2 / T(2) * (x - y) * (x + y)};
 }
 
 /// Y of any number of bands >= 1 into `out` (bands^2 values), `direction` a unit vector.
 ///
-/// sin^m(theta) cos(m phi) and sin(m phi) come from powers of x + iy, the rest of P_l^m from the normalised three-term
-/// recurrence in l (Press et al., Numerical Recipes, 3rd ed., 6.7, eq. 6.7.9), which neither overflows nor cancels.
-/// Absolute error below 2e-14 for 32 bands in double, 2e-6 for 8 bands in float.
+/// sin^m(theta) cos(m phi) and sin(m phi) come from powers of x + iy, the rest of P_l^m from the normalised
+/// three-term recurrence in l (Press et al., Numerical Recipes, 3rd ed., 6.7, eq. 6.7.9), which neither
+/// overflows nor cancels. Absolute error below 2e-14 for 32 bands in double, 2e-6 for 8 bands in float.
 template <class T>
 void sh_evaluate(int bands, const Vec3<T>& direction, std::span<T> out) {
     const T z = direction.z;
@@ -77,7 +85,8 @@ void sh_evaluate(int bands, const Vec3<T>& direction, std::span<T> out) {
     }
 }
 
-/// The value of a function with coefficients `coefficients` (bands^2 of them; T or a GLM vector of T) in a direction.
+/// The value of a function with coefficients `coefficients` (bands^2 of them; T or a GLM vector of T) in a
+/// direction.
 template <class T, class Value>
 Value sh_reconstruct(int bands, std::span<const Value> coefficients, const Vec3<T>& direction) {
     std::vector<T> basis(sh_count(bands));
@@ -87,8 +96,8 @@ Value sh_reconstruct(int bands, std::span<const Value> coefficients, const Vec3<
     return sum;
 }
 
-/// Multiplies band l by factors[l], for all factors.size() bands: convolution with a zonal kernel whose coefficients are
-/// `factors` (ibl/zonal_harmonics.hpp), or a window.
+/// Multiplies band l by factors[l], for all factors.size() bands: convolution with a zonal kernel whose
+/// coefficients are `factors` (ibl/zonal_harmonics.hpp), or a window.
 template <class T, class Value>
 void sh_scale_bands(std::span<const T> factors, std::span<Value> coefficients) {
     for (int l = 0; l < static_cast<int>(factors.size()); ++l)
@@ -97,9 +106,10 @@ void sh_scale_bands(std::span<const T> factors, std::span<Value> coefficients) {
 
 class PatchBlocks;
 
-/// Coefficients of a picture's RGB radiance: the integral of radiance times Y over the sphere, texel by texel with exact
-/// solid angles (a picture is constant over each texel), Y by Gauss-Legendre points within the texel. World directions.
-/// bands >= 1. Relative to the mean radiance, absolute error below 3e-7, of which most is the float rounding of points.
+/// Coefficients of a picture's RGB radiance: the integral of radiance times Y over the sphere, texel by texel
+/// with exact solid angles (a picture is constant over each texel), Y by Gauss-Legendre points within the
+/// texel. World directions. bands >= 1. Relative to the mean radiance, absolute error below 3e-7, of which
+/// most is the float rounding of points.
 std::vector<glm::dvec3> sh_project(const PatchBlocks& source, int bands);
 
 }  // namespace pbr

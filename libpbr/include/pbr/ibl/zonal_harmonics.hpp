@@ -1,9 +1,9 @@
 #pragma once
 // Zonal kernels in spherical harmonics, and windows.
 //
-// By the theorem of Funk and Hecke, convolving with a kernel k(n.l) multiplies band l by k_l = 2 pi times the integral of
-// k(mu) P_l(mu) over [-1, 1] (Ramamoorthi & Hanrahan 2001, "On the relationship between radiance and irradiance", eq. 22,
-// where sqrt(4 pi/(2l+1)) is split off the kernel's own coefficients).
+// By the theorem of Funk and Hecke, convolving with a kernel k(n.l) multiplies band l by k_l = 2 pi times the
+// integral of k(mu) P_l(mu) over [-1, 1] (Ramamoorthi & Hanrahan 2001, "On the relationship between radiance
+// and irradiance", eq. 22, where sqrt(4 pi/(2l+1)) is split off the kernel's own coefficients).
 
 #include <array>
 #include <cmath>
@@ -18,16 +18,18 @@ namespace pbr {
 
 class GgxZonalKernel;
 
-/// k_l of the clamped cosine max(0, mu): pi, 2 pi/3, pi/4, 0, -pi/24 … Radiance becomes irradiance; over pi, it becomes the
-/// radiance of a white Lambert surface. Closed form (Ramamoorthi & Hanrahan 2001, eq. 8); relative error below 1e-14.
-/// l >= 0.
+/// k_l of the clamped cosine max(0, mu): pi, 2 pi/3, pi/4, 0, -pi/24 … Radiance becomes irradiance; over pi,
+/// it becomes the radiance of a white Lambert surface. Closed form (Ramamoorthi & Hanrahan 2001, eq. 8);
+/// absolute error below 1e-13. l >= 0.
 double zonal_cosine(int l);
 
-/// k_0 … k_{bands-1} of the GGX lobe: LD_lm = k_l E_lm. k_0 = 1; k_l falls to 0 with growing alpha l. Gauss-Legendre over
-/// panels that double in width from the lobe's core. Absolute error below 1e-12 for alpha in [1e-4, 1], bands <= 256.
+/// k_0 … k_{bands-1} of the GGX lobe: LD_lm = k_l E_lm. k_0 = 1; k_l falls to 0 with growing alpha l.
+/// Gauss-Legendre over panels that double in width from the lobe's core. Absolute error below 1e-12 for alpha
+/// in [1e-4, 1], bands <= 256.
 std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands);
 
-/// Hann's window, (1 + cos(pi l / width)) / 2 up to l = width, then 0; width > 0 in bands, not necessarily whole.
+/// Hann's window, (1 + cos(pi l / width)) / 2 up to l = width, then 0; width > 0 in bands, not necessarily
+/// whole.
 template <class T>
 T window_hann(int l, T width) {
     const T x = static_cast<T>(l) / width;
@@ -42,25 +44,26 @@ T window_lanczos(int l, T width) {
     return x < std::numbers::pi_v<T> ? std::sin(x) / x : T(0);
 }
 
-/// The Gauss-Weierstrass window exp(-t l (l+1)), t >= 0: heat spread on the sphere for a time t. Its kernel is positive, so
-/// it never lowers a function's minimum, which is why dering_time can bisect on it; the two windows above have kernels with
-/// negative lobes.
+/// The Gauss-Weierstrass window exp(-t l (l+1)), t >= 0: heat spread on the sphere for a time t. Its kernel
+/// is positive, so it never lowers a function's minimum, which is why dering_time can bisect on it; the two
+/// windows above have kernels with negative lobes.
 template <class T>
 T window_gauss(int l, T t) {
     return std::exp(-t * static_cast<T>(l * (l + 1)));
 }
 
-/// The smallest t (within 1e-4 of itself) for which window_gauss lifts a function of `bands` <= 8 bands to at least 0
-/// everywhere (tested to 1e-6 of its mean): 0 if it is not negative. Deringing in the sense of Sloan (2008, "Stupid
-/// spherical harmonics tricks", windowing), with this window in place of his. A mean of 0 or below cannot be lifted: the
-/// answer is +Inf, which leaves the mean alone. For RGB take the largest of the three, lest colours shift.
+/// The smallest t (within 1e-4 of itself) for which window_gauss lifts a function of `bands` <= 8 bands to at
+/// least 0 everywhere (tested to 1e-6 of its mean): 0 if it is not negative. Deringing in the sense of Sloan
+/// (2008, "Stupid spherical harmonics tricks", windowing), with this window in place of his. A mean of 0 or
+/// below cannot be lifted: the answer is +Inf, which leaves the mean alone. For RGB take the largest of the
+/// three, lest colours shift.
 double dering_time(int bands, std::span<const double> coefficients);
 
 /// Irradiance as shaders evaluate it: nine numbers c so that
 ///     E(n) = c0 + c1 y + c2 z + c3 x + c4 xy + c5 yz + c6 (3z^2 - 1) + c7 xz + c8 (x^2 - y^2),
-/// from nine coefficients of *radiance* (T or GLM vectors). E has no 1/pi: multiply by albedo/pi. The numbers fold zonal_cosine
-/// into the basis; Ramamoorthi & Hanrahan (2001, eq. 12) have the same as c1 … c5 = .429043 .511664 .743125 .886227 .247708,
-/// Filament's iblSH the same over pi.
+/// from nine coefficients of *radiance* (T or GLM vectors). E has no 1/pi: multiply by albedo/pi. The numbers
+/// fold zonal_cosine into the basis; Ramamoorthi & Hanrahan (2001, eq. 12) have the same as c1 … c5 = .429043
+/// .511664 .743125 .886227 .247708, Filament's iblSH the same over pi.
 template <class Value>
 std::array<Value, 9> irradiance_polynomial(std::span<const Value, 9> radiance) {
     constexpr double kPi = std::numbers::pi;

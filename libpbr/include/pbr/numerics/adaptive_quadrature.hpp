@@ -1,10 +1,10 @@
 #pragma once
 // Adaptive quadrature in one and two dimensions, with an error estimate and a count of evaluations.
 //
-// Global adaptation: the panel (interval or rectangle) with the largest error is halved until the sum of all errors
-// meets the tolerance. A panel is measured by the 15-point Kronrod rule against the 7-point Gauss rule inside it
-// (Kronrod 1965; nodes and error scaling as in Piessens et al. 1983, QUADPACK, routine qk15). What no panel's nodes
-// see is not found: narrow features need a break point at them.
+// Global adaptation: the panel (interval or rectangle) with the largest error is halved until the sum of all
+// errors meets the tolerance. A panel is measured by the 15-point Kronrod rule against the 7-point Gauss rule
+// inside it (Kronrod 1965; nodes and error scaling as in Piessens et al. 1983, QUADPACK, routine qk15). What
+// no panel's nodes see is not found: narrow features need a break point at them.
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,8 @@ struct Estimate {
     bool converged = false;  ///< false: max_evaluations or rounding stopped it before the tolerance was met
 };
 
-/// When to stop: error <= max(absolute, relative |value|), or after max_evaluations (exceeded by one panel at most).
+/// When to stop: error <= max(absolute, relative |value|), or after max_evaluations (exceeded by two panels
+/// at most). Give an absolute one where the integral may be 0 but the integrand is not.
 struct QuadratureTolerance {
     double relative = 1e-9;
     double absolute = 0;
@@ -39,19 +40,24 @@ constexpr int kPoints = 15;
 
 /// Nodes on [-1, 1], ascending; the odd ones (1, 3, …) are the Gauss nodes.
 constexpr std::array<double, kPoints> kNodes = {
-    -0.991455371120812639206854697526329, -0.949107912342758524526189684047851, -0.864864423359769072789712788640926,
-    -0.741531185599394439863864773280788, -0.586087235467691130294144691693013, -0.405845151377397166906606412076961,
+    -0.991455371120812639206854697526329, -0.949107912342758524526189684047851,
+    -0.864864423359769072789712788640926, -0.741531185599394439863864773280788,
+    -0.586087235467691130294144691693013, -0.405845151377397166906606412076961,
     -0.207784955007898467600689403773245, 0,
-    0.207784955007898467600689403773245,  0.405845151377397166906606412076961,  0.586087235467691130294144691693013,
-    0.741531185599394439863864773280788,  0.864864423359769072789712788640926,  0.949107912342758524526189684047851,
+    0.207784955007898467600689403773245,  0.405845151377397166906606412076961,
+    0.586087235467691130294144691693013,  0.741531185599394439863864773280788,
+    0.864864423359769072789712788640926,  0.949107912342758524526189684047851,
     0.991455371120812639206854697526329};
 
 constexpr std::array<double, kPoints> kWeights = {
-    0.022935322010529224963732008058970, 0.063092092629978553290700663189204, 0.104790010322250183839876322541518,
-    0.140653259715525918745189590510238, 0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
-    0.204432940075298892414161999234649, 0.209482141084727828012999174891714, 0.204432940075298892414161999234649,
-    0.190350578064785409913256402421014, 0.169004726639267902826583426598550, 0.140653259715525918745189590510238,
-    0.104790010322250183839876322541518, 0.063092092629978553290700663189204, 0.022935322010529224963732008058970};
+    0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
+    0.104790010322250183839876322541518, 0.140653259715525918745189590510238,
+    0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
+    0.204432940075298892414161999234649, 0.209482141084727828012999174891714,
+    0.204432940075298892414161999234649, 0.190350578064785409913256402421014,
+    0.169004726639267902826583426598550, 0.140653259715525918745189590510238,
+    0.104790010322250183839876322541518, 0.063092092629978553290700663189204,
+    0.022935322010529224963732008058970};
 
 /// Weights of the Gauss rule, 0 at the nodes that it lacks.
 constexpr std::array<double, kPoints> kGaussWeights = {
@@ -60,15 +66,17 @@ constexpr std::array<double, kPoints> kGaussWeights = {
     0, 0.381830050505118944950369775488975, 0, 0.279705391489276667901467771423780,
     0, 0.129484966168869693270611432679082, 0};
 
-/// QUADPACK's error of a panel from |Kronrod - Gauss|, the integral of |f - mean| (`deviation`) and that of |f|: the
-/// difference is the Gauss rule's error, the Kronrod rule's own is far smaller where f is smooth.
+/// QUADPACK's error of a panel from |Kronrod - Gauss|, the integral of |f - mean| (`deviation`) and that of
+/// |f|: the difference is the Gauss rule's error, the Kronrod rule's own is far smaller where f is smooth.
 inline double panel_error(double difference, double deviation) {
     if (deviation == 0 || difference == 0) return difference;
     return deviation * std::min(1.0, std::pow(200 * difference / deviation, 1.5));
 }
 
 /// Rounding leaves a panel no better than this, given its integral of |f|.
-inline double rounding_error(double magnitude) { return 50 * std::numeric_limits<double>::epsilon() * magnitude; }
+inline double rounding_error(double magnitude) {
+    return 50 * std::numeric_limits<double>::epsilon() * magnitude;
+}
 
 /// A rectangle (an interval has y0 = 0, y1 = 1) with its integral.
 struct Panel {
@@ -76,7 +84,8 @@ struct Panel {
     double value = 0, error = 0;
     bool along_x = true;     ///< the axis to halve
     bool exhausted = false;  ///< its error is rounding: halving gains nothing
-    bool operator<(const Panel& other) const {  // heap order: exhausted panels last
+    /// Order of the heap: the largest error first, exhausted panels last.
+    bool operator<(const Panel& other) const {
         return exhausted != other.exhausted ? exhausted : error < other.error;
     }
 };
@@ -135,7 +144,8 @@ void measure_rectangle(const F& f, Panel& panel) {
 
 /// Halves panels of the heap until the tolerance is met.
 template <class Measure>
-Estimate refine(std::vector<Panel>& heap, const Measure& measure, std::int64_t cost, const QuadratureTolerance& tolerance) {
+Estimate refine(std::vector<Panel>& heap, const Measure& measure, std::int64_t cost,
+                const QuadratureTolerance& tolerance) {
     std::make_heap(heap.begin(), heap.end());
     Estimate estimate;
     estimate.evaluations = cost * static_cast<std::int64_t>(heap.size());
@@ -152,7 +162,8 @@ Estimate refine(std::vector<Panel>& heap, const Measure& measure, std::int64_t c
         return estimate.error <= std::max(tolerance.absolute, tolerance.relative * std::abs(estimate.value));
     };
     totals();
-    while (!heap.empty() && !met() && estimate.evaluations < tolerance.max_evaluations && !heap.front().exhausted) {
+    while (!heap.empty() && !met() && estimate.evaluations < tolerance.max_evaluations &&
+           !heap.front().exhausted) {
         std::pop_heap(heap.begin(), heap.end());
         const Panel parent = heap.back();
         Panel low = parent, high = parent;
@@ -177,11 +188,13 @@ Estimate refine(std::vector<Panel>& heap, const Measure& measure, std::int64_t c
 
 }  // namespace kronrod
 
-/// The integral of f(x) over [breaks.front(), breaks.back()]; every value of `breaks` (ascending, at least two) is a
-/// panel's end, so kinks and peaks belong there. Nodes are inner points: f is never evaluated at a break. Polynomials up
-/// to degree 22 are exact at once. f must be finite at the nodes; end point singularities that are integrable converge.
+/// The integral of f(x) over [breaks.front(), breaks.back()]; every value of `breaks` (ascending, at least
+/// two) is a panel's end, so kinks and peaks belong there. Nodes are inner points: f is never evaluated at a
+/// break. Polynomials up to degree 22 are exact at once. f must be finite at the nodes; end point
+/// singularities that are integrable converge.
 template <class F>
-Estimate integrate_adaptive(const F& f, std::span<const double> breaks, const QuadratureTolerance& tolerance = {}) {
+Estimate integrate_adaptive(const F& f, std::span<const double> breaks,
+                            const QuadratureTolerance& tolerance = {}) {
     std::vector<kronrod::Panel> heap;
     const auto measure = [&](kronrod::Panel& panel) { kronrod::measure_interval(f, panel); };
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
@@ -198,9 +211,10 @@ Estimate integrate_adaptive(const F& f, double low, double high, const Quadratur
     return integrate_adaptive(f, std::array{low, high}, tolerance);
 }
 
-/// The integral of f(x, y) over the rectangle spanned by the first and last of `x_breaks` and `y_breaks` (ascending);
-/// lines at all breaks are panels' edges. A panel costs 225 evaluations. Polynomials up to degree 22 in each variable
-/// are exact at once. Kinks along curves are the slow case: map the domain so that they fall on edges.
+/// The integral of f(x, y) over the rectangle spanned by the first and last of `x_breaks` and `y_breaks`
+/// (ascending); lines at all breaks are panels' edges. A panel costs 225 evaluations. Polynomials up to
+/// degree 22 in each variable are exact at once. Kinks along curves are the slow case: map the domain so that
+/// they fall on edges.
 template <class F>
 Estimate integrate_adaptive_2d(const F& f, std::span<const double> x_breaks, std::span<const double> y_breaks,
                                const QuadratureTolerance& tolerance = {}) {

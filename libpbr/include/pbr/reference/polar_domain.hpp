@@ -1,5 +1,6 @@
 #pragma once
-// Part of the upper hemisphere as polar coordinates about an axis: what reference integrals over directions run on.
+// Part of the upper hemisphere as polar coordinates about an axis: what reference integrals over directions
+// run on.
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +20,10 @@ struct Peak {
     double width_rad;        ///< the angle over which it changes by its own size, > 0
 };
 
-/// Break points of [low, high], ascending, its ends included, with more of them towards `centre`: centre ± width 4^k.
-inline void add_graded_breaks(double low, double high, double centre, double width, std::vector<double>& breaks) {
+/// Break points of [low, high], ascending, its ends included, with more of them towards `centre`: centre ±
+/// width 4^k.
+inline void add_graded_breaks(double low, double high, double centre, double width,
+                              std::vector<double>& breaks) {
     if (centre > low && centre < high) breaks.push_back(centre);
     for (double distance = width; distance < high - low; distance *= 4)
         for (const double at : {centre - distance, centre + distance})
@@ -33,14 +36,15 @@ inline void sort_breaks(std::vector<double>& breaks) {
     breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
 }
 
-/// The directions within half_angle_rad (in [0, pi]) of a unit axis that lie above the surface with normal +z, as (azimuth psi,
-/// angle gamma to the axis); psi = 0 points from the axis to the normal.
+/// The directions within half_angle_rad (in [0, pi]) of a unit axis that lie above the surface with normal
+/// +z, as (azimuth psi, angle gamma to the axis); psi = 0 points from the axis to the normal.
 class PolarDomain {
   public:
     /// The whole hemisphere is PolarDomain({0, 0, 1}, pi/2): psi then counts from the x axis.
     PolarDomain(const Vec3<double>& axis, double half_angle_rad) : axis_(axis), half_angle_(half_angle_rad) {
         sine_ = std::hypot(axis.x, axis.y);
-        up_ = sine_ > 0 ? Vec3<double>(-axis.z * axis.x / sine_, -axis.z * axis.y / sine_, sine_) : Vec3<double>(1, 0, 0);
+        up_ = sine_ > 0 ? Vec3<double>(-axis.z * axis.x / sine_, -axis.z * axis.y / sine_, sine_)
+                        : Vec3<double>(1, 0, 0);
         side_ = glm::cross(axis_, up_);
     }
 
@@ -55,11 +59,15 @@ class PolarDomain {
         return {std::atan2(y, x), std::atan2(std::hypot(x, y), glm::dot(w, axis_))};
     }
 
-    /// The angles gamma at azimuth psi that belong to the domain; empty where first >= second. Along psi the height over the
-    /// surface is proportional to cos(gamma - delta), tan(delta) = sine cos(psi) / axis.z: above it within pi/2 of delta.
+    /// The angles gamma at azimuth psi that belong to the domain; empty where first >= second. Along psi the
+    /// height over the surface is proportional to cos(gamma - delta), tan(delta) = sine cos(psi) / axis.z:
+    /// above it within pi/2 of delta.
     std::pair<double, double> gamma_range(double psi) const {
-        const double delta = std::atan2(sine_ * std::cos(psi), axis_.z);
-        return {std::max(0.0, delta - std::numbers::pi / 2), std::min(half_angle_, delta + std::numbers::pi / 2)};
+        double delta = std::atan2(sine_ * std::cos(psi), axis_.z);
+        if (delta < -std::numbers::pi / 2)
+            delta += 2 * std::numbers::pi;  // an axis below, seen past its far side
+        return {std::max(0.0, delta - std::numbers::pi / 2),
+                std::min(half_angle_, delta + std::numbers::pi / 2)};
     }
 
     /// Break points over psi in [-pi, pi]: quarter turns, and where the horizon meets the rim of the cap.
@@ -73,7 +81,8 @@ class PolarDomain {
         }
         for (const Peak& peak : peaks) {
             const auto [psi, gamma] = coordinates(peak.direction);
-            if (std::sin(gamma) > peak.width_rad) add_graded_breaks(-kPi, kPi, psi, peak.width_rad / std::sin(gamma), breaks);
+            if (std::sin(gamma) > peak.width_rad)
+                add_graded_breaks(-kPi, kPi, psi, peak.width_rad / std::sin(gamma), breaks);
         }
         sort_breaks(breaks);
         return breaks;
@@ -85,7 +94,8 @@ class PolarDomain {
         for (const Peak& peak : peaks) {
             const auto [psi, gamma] = coordinates(peak.direction);
             const auto [low, high] = gamma_range(psi);
-            if (high > low) add_graded_breaks(0, 1, (gamma - low) / (high - low), peak.width_rad / (high - low), breaks);
+            if (high > low)
+                add_graded_breaks(0, 1, (gamma - low) / (high - low), peak.width_rad / (high - low), breaks);
         }
         sort_breaks(breaks);
         return breaks;

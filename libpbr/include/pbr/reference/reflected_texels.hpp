@@ -5,10 +5,12 @@
 #include <cmath>
 #include <glm/mat3x3.hpp>
 #include <iterator>
+#include <numbers>
 
 #include "pbr/ibl/patches.hpp"
 #include "pbr/numerics/adaptive_quadrature.hpp"
 #include "pbr/numerics/sum.hpp"
+#include "pbr/numerics/vector.hpp"
 
 namespace pbr {
 
@@ -26,16 +28,19 @@ struct ColourEstimate {
     bool converged = true;
 };
 
-/// The integral of brdf(wo, wi) L(wi) wi.z over the hemisphere, L being a picture constant over each texel. The sum over texels with
-/// their exact solid angles; within a texel Gauss-Legendre points, block by block (up to 8x8 texels) of rising order until two orders
-/// agree within `relative_tolerance` of the whole sum's scale. Blocks wholly below the surface cost nothing.
+/// The integral of brdf(wo, wi) L(wi) wi.z over the hemisphere, L being a picture constant over each texel.
+/// The sum over texels with their exact solid angles; within a texel Gauss-Legendre points, block by block
+/// (up to 8x8 texels) of rising order until two orders agree within `relative_tolerance` of the whole sum's
+/// scale. Blocks wholly below the surface cost nothing.
 ///
-/// `world_to_surface` is a rotation that takes the picture's world to the frame of the surface, normal +z; wo is in that frame, wo.z > 0.
-/// Limits: points are rounded to float, so a lobe of width alpha is off by about 1e-7 / alpha, relatively; a texel cut by the horizon
-/// converges like 1/order², which the error estimate includes.
+/// `world_to_surface` is a rotation that takes the picture's world to the frame of the surface, normal +z; wo
+/// is in that frame, wo.z > 0. Limits: points are rounded to float, so a lobe of width alpha is off by about
+/// 1e-7 / alpha, relatively; a texel cut by the horizon converges like 1/order², which the error estimate
+/// includes.
 template <class Brdf>
-ColourEstimate reflected_radiance_from_texels(const Brdf& brdf, const Vec3<double>& wo, const PatchBlocks& source,
-                                              const glm::dmat3& world_to_surface, double relative_tolerance = 1e-6) {
+ColourEstimate reflected_radiance_from_texels(const Brdf& brdf, const Vec3<double>& wo,
+                                              const PatchBlocks& source, const glm::dmat3& world_to_surface,
+                                              double relative_tolerance = 1e-6) {
     constexpr int kOrderCount = static_cast<int>(std::size(PatchBlocks::kOrders));
     PatchPoints points;
     ColourEstimate estimate;
