@@ -1,6 +1,5 @@
 #include "pbr/ibl/spherical_harmonics.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <iterator>
 
@@ -25,9 +24,7 @@ int order_for(double phase) {
 
 std::vector<glm::dvec3> sh_project(const PatchBlocks& source, int bands) {
     assert(bands >= 1);
-    // Phase of the highest band over a texel; not below 1/8, so that the texel's own area element is
-    // integrated as well.
-    const int order = order_for(std::max(bands * source.texel_angle(), 0.125));
+    const int order = order_for(bands * source.texel_angle());
     std::vector<glm::dvec3> coefficients(sh_count(bands), glm::dvec3(0));
     std::vector<double> basis(sh_count(bands));
     PatchPoints points;

@@ -111,21 +111,27 @@ TEST(DominantDirection, TakesAlphaAndNotPerceptualRoughness) {
 }
 
 TEST(DominantDirection, OfDisneyDiffuseLeansToTheViewer) {
-    double off = 0, off_above = 0, lean = 0, lean_above = 0;
-    for (const double r : {.25, .5, .75, 1.})
+    double off = 0, off_perceptual = 0, off_above = 0, lean = 0, lean_above = 0;
+    for (const double p : {.25, .5, .75, 1.})
         for (const double NoV : kViews) {
             const auto brdf = [&](const Vec3<double>& wo, const Vec3<double>& wi) {
-                return f_disney_diffuse(wi.z, wo.z, glm::dot(wi, glm::normalize(wo + wi)), r);
+                return f_disney_diffuse(wi.z, wo.z, glm::dot(wi, glm::normalize(wo + wi)), p);
             };
             const double at = mean(brdf, NoV);
-            const double miss =
-                std::abs(degrees(dominant_diffuse_direction(kNormal, view(NoV), NoV, r)) - at);
+            const auto miss = [&](double roughness) {
+                return std::abs(degrees(dominant_diffuse_direction(kNormal, view(NoV), NoV, roughness)) - at);
+            };
             EXPECT_GE(at, 0);
-            off = std::max(off, miss);
+            off = std::max(off, miss(p * p));
+            off_perceptual = std::max(off_perceptual, miss(p));
             lean = std::max(lean, at);
-            if (NoV >= 0.5) off_above = std::max(off_above, miss), lean_above = std::max(lean_above, at);
+            if (NoV >= 0.5) {
+                off_above = std::max(off_above, miss(p * p));
+                lean_above = std::max(lean_above, at);
+            }
         }
-    EXPECT_NEAR(off, 5.7, 0.2);
+    EXPECT_NEAR(off, 4.6, 0.1);
+    EXPECT_NEAR(off_perceptual, 5.7, 0.1);
     EXPECT_NEAR(lean, 11.4, 0.1);
     EXPECT_NEAR(off_above, 2.2, 0.1);
     EXPECT_NEAR(lean_above, 2.2, 0.1);

@@ -22,9 +22,9 @@ constexpr T kRoot = T(4) *
 template <class T>
 const Mapping<T> kMappings[] = {
     {"frostbite", level_frostbite<T>, perceptual_roughness_frostbite<T>,
-     T(4) * std::numeric_limits<T>::epsilon()},
+     T(8) * std::numeric_limits<T>::epsilon()},
     {"filament", level_filament<T>, perceptual_roughness_filament<T>, kRoot<T>},
-    {"unity", level_unity<T>, perceptual_roughness_unity<T>, T(4) * std::numeric_limits<T>::epsilon()},
+    {"unity", level_unity<T>, perceptual_roughness_unity<T>, T(8) * std::numeric_limits<T>::epsilon()},
 };
 
 template <class T>

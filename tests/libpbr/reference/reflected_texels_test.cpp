@@ -6,25 +6,14 @@
 #include <numbers>
 #include <vector>
 
-#include "pbr/brdf/ggx.hpp"
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/dfg.hpp"
+#include "pbr/reference/flat_light.hpp"
 #include "pbr/reference/reflected_radiance.hpp"
+#include "tests/libpbr/reference/lobes.hpp"
 
 namespace pbr {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-double lambert(const Vec3<double>&, const Vec3<double>&) { return 1 / kPi; }
-
-struct Ggx {
-    double alpha;
-    double operator()(const Vec3<double>& wo, const Vec3<double>& wi) const {
-        const Vec3<double> h = glm::normalize(wo + wi);
-        return D_ggx(h.z, h.x * h.x + h.y * h.y, alpha) * V_smith_ggx_correlated(wi.z, wo.z, alpha);
-    }
-};
 
 const Vec3<double> kView(0.8, 0, 0.6);
 

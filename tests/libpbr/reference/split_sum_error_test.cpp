@@ -12,27 +12,18 @@
 #include <numbers>
 #include <vector>
 
-#include "pbr/brdf/ggx.hpp"
 #include "pbr/ibl/dominant_direction.hpp"
 #include "pbr/ibl/spherical_harmonics.hpp"
 #include "pbr/ibl/split_sum.hpp"
 #include "pbr/ibl/zonal_harmonics.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
 #include "pbr/reference/reflected_radiance.hpp"
+#include "tests/libpbr/reference/lobes.hpp"
 
 namespace pbr {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kBands = 5;  // the sky's later bands hold 1e-4 of its power
-
-struct Ggx {
-    double alpha;
-    double operator()(const Vec3<double>& wo, const Vec3<double>& wi) const {
-        const Vec3<double> h = glm::normalize(wo + wi);
-        return D_ggx(h.z, h.x * h.x + h.y * h.y, alpha) * V_smith_ggx_correlated(wi.z, wo.z, alpha);
-    }
-};
 
 /// A white GGX lobe seen from NoV, in harmonics.
 struct LobeInHarmonics {

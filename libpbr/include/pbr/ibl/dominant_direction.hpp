@@ -17,9 +17,8 @@ namespace pbr {
 /// listing is alpha: with perceptual roughness listing 21 misses its peaks. Neither the lobe's peak nor its
 /// mean but a compromise of the look-up: 26 degrees from the mean of the correlated lobe at worst (NoV = .1,
 /// alpha = .5), where R is 58 away. In the split sum under a smooth sky it takes back half of the error and
-/// more for alpha >= .25 (tests: .52 to .21 at alpha .5, NoV .3); for smooth surfaces seen from above it does
-/// harm
-/// (.011 to .019 at alpha .1, NoV .9).
+/// more for alpha >= .5 (tests: .52 to .21 at alpha .5, NoV .3), a third at .25; for smooth surfaces seen
+/// from above it does harm (.011 to .019 at alpha .1, NoV .9).
 template <class T>
 T dominant_factor_frostbite(T alpha) {
     const T smoothness = std::clamp(T(1) - alpha, T(0), T(1));
@@ -48,7 +47,7 @@ T dominant_factor_peak_uncorrelated(T NoV, T alpha) {
 }
 
 /// Filament's (shaders/src/light_indirect.fs, getSpecularDominantDirection): 1 - alpha^2, alpha in [0, 1]. Up
-/// to 41 degrees from the mean (NoV = .1, alpha = .5), but never worse than R under a smooth sky.
+/// to 40 degrees from the mean (NoV = .1, alpha = .5), but never worse than R under a smooth sky.
 template <class T>
 T dominant_factor_filament(T alpha) {
     return T(1) - alpha * alpha;
@@ -62,15 +61,16 @@ Vec3<T> dominant_direction(const Vec3<T>& N, const Vec3<T>& R, T factor) {
 }
 
 /// The direction for Disney's diffuse lobe, which leans back to the viewer V: normalize(lerp(N, V, factor)),
-/// factor = clamp((NoV (1.02341 p - 1.51174) - .511705 p + .755868) p), p being perceptual roughness (listing
-/// 23; 15 for area lights). N and V unit, NoV = N.V and p in [0, 1]. Within 6 degrees of the lobe's mean for
-/// NoV >= .1, which is itself at most 11.4 from N; for p <= .75 it overshoots, by up to twice; for NoV >= .5
-/// it returns N (p < 1), off by at most 2.2 degrees.
+/// factor = clamp((NoV (1.02341 alpha - 1.51174) - .511705 alpha + .755868) alpha) (listing 23; 15 for area
+/// lights). N and V unit, NoV = N.V and alpha in [0, 1]; `roughness` in the listing is alpha, as listing 24
+/// passes it (perceptual roughness would miss by 5.7 degrees). Within 4.7 degrees of the mean of the
+/// renormalised lobe for NoV >= .1, which is itself at most 11.4 from N; for NoV >= .5 it returns N, off by
+/// at most 2.2 degrees. Frostbite itself leaves it out for cost.
 template <class T>
-Vec3<T> dominant_diffuse_direction(const Vec3<T>& N, const Vec3<T>& V, T NoV, T perceptual_roughness) {
-    const T slope = T(1.02341) * perceptual_roughness - T(1.51174);
-    const T offset = T(-0.511705) * perceptual_roughness + T(0.755868);
-    const T factor = std::clamp((NoV * slope + offset) * perceptual_roughness, T(0), T(1));
+Vec3<T> dominant_diffuse_direction(const Vec3<T>& N, const Vec3<T>& V, T NoV, T alpha) {
+    const T slope = T(1.02341) * alpha - T(1.51174);
+    const T offset = T(-0.511705) * alpha + T(0.755868);
+    const T factor = std::clamp((NoV * slope + offset) * alpha, T(0), T(1));
     return glm::normalize(N + factor * (V - N));
 }
 

@@ -4,7 +4,7 @@
 //
 // `top_level` is the last level that holds a lobe, counted from 0 (levels - 1): perceptual roughness 1. All
 // mappings but Unreal's take perceptual_roughness in [0, 1] onto [0, top_level], increasing; inverses go back
-// within 4 ulp of 1, apart from where the slope of the mapping vanishes, as said at each.
+// within 8 ulp of 1, apart from where the slope of the mapping vanishes, as said at each.
 
 #include <algorithm>
 #include <cmath>

@@ -24,8 +24,8 @@ namespace pbr {
 template <class T>
 class ShRotation {
   public:
-    /// `rotation` takes directions to rotated directions; it must be orthogonal with determinant 1. bands
-    /// >= 1.
+    /// `rotation` takes directions to rotated directions; it must be orthogonal with determinant 1. bands >=
+    /// 1.
     ShRotation(int bands, const glm::mat<3, 3, T>& rotation) : bands_(bands) {
         assert(bands >= 1);
         matrices_.resize(bands);
@@ -65,6 +65,7 @@ class ShRotation {
         return at(1, i, 0) * at(l - 1, a, b);
     }
 
+    /// V of table 1, without its factor v.
     T v_term(int l, int m, int n) const {
         if (m == 0) return p(l, 1, 1, n) + p(l, -1, -1, n);
         const T root2 = std::numbers::sqrt2_v<T>;
@@ -73,10 +74,12 @@ class ShRotation {
         return m > 0 ? p(l, 1, m - 1, n) - p(l, -1, 1 - m, n) : p(l, 1, m + 1, n) + p(l, -1, -m - 1, n);
     }
 
+    /// W of table 1, without its factor w.
     T w_term(int l, int m, int n) const {
         return m > 0 ? p(l, 1, m + 1, n) + p(l, -1, -m - 1, n) : p(l, 1, m - 1, n) - p(l, -1, 1 - m, n);
     }
 
+    /// Element (m, n) of band l's matrix, u U + v V + w W.
     T element(int l, int m, int n) const {
         const int a = std::abs(m);
         const T d = static_cast<T>(std::abs(n) < l ? (l + n) * (l - n) : 2 * l * (2 * l - 1));
