@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "pbr/ibl/spherical_harmonics.hpp"
@@ -46,7 +48,7 @@ std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands) {
 namespace {
 
 /// The least value of a function of a few bands: a grid of directions finer than the highest band's waves,
-/// then Newton-free descent from the lowest of them by shrinking steps along the tangents.
+/// then plain descent from the lowest of them by shrinking steps along the tangents.
 class MinimumFinder {
   public:
     explicit MinimumFinder(int bands) : bands_(bands) {
@@ -69,7 +71,10 @@ class MinimumFinder {
             double sum = 0;
             for (int j = 0; j < sh_count(bands_); ++j)
                 sum += coefficients[j] * basis_[i * sh_count(bands_) + j];
-            if (sum < value) value = sum, lowest = i;
+            if (sum < value) {
+                value = sum;
+                lowest = i;
+            }
         }
         return descend(coefficients, directions_[lowest], value);
     }
@@ -78,22 +83,22 @@ class MinimumFinder {
     double descend(std::span<const double> coefficients, glm::dvec3 at, double value) const {
         // Steps from the grid's spacing down to where a quadratic minimum is flat to 1e-8.
         for (double step = 0.5 / bands_; step > 1e-4;) {
-            const glm::dvec3 helper = std::abs(at.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-            const glm::dvec3 u = unit(cross(helper, at)), v = cross(at, u);
+            const glm::dvec3 other = std::abs(at.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+            const glm::dvec3 u = glm::normalize(glm::cross(other, at)), v = glm::cross(at, u);
             bool moved = false;
             for (const glm::dvec3& tangent : {u, -u, v, -v}) {
-                const glm::dvec3 candidate = unit(at + step * tangent);
+                const glm::dvec3 candidate = glm::normalize(at + step * tangent);
                 const double there = sh_reconstruct<double, double>(bands_, coefficients, candidate);
-                if (there < value) value = there, at = candidate, moved = true;
+                if (there < value) {
+                    value = there;
+                    at = candidate;
+                    moved = true;
+                }
             }
             if (!moved) step /= 2;
         }
         return value;
     }
-    static glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
-        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    }
-    static glm::dvec3 unit(const glm::dvec3& a) { return a / std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
 
     int bands_;
     std::vector<glm::dvec3> directions_;

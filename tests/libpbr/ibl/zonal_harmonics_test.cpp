@@ -12,6 +12,7 @@
 #include "pbr/ibl/patches.hpp"
 #include "pbr/ibl/spherical_harmonics.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
+#include "pbr/numerics/sequence.hpp"
 #include "tests/libpbr/support/integrate.hpp"
 #include "tests/libpbr/support/property.hpp"
 
@@ -144,6 +145,20 @@ TEST(Dering, LiftsTheIrradianceOfASunToZeroAndNoFurther) {
                     EXPECT_LT(least_value(bands, windowed), -1e-4 * mean);
             }
         }
+}
+
+TEST(Dering, LiftsAnySeriesOfPositiveMean) {
+    for (int trial = 0; trial < 30; ++trial) {
+        const int bands = 2 + trial % 7;
+        std::vector<double> c(sh_count(bands)), factors(bands);
+        for (int i = 0; i < sh_count(bands); ++i) c[i] = 2 * random_unit(31, trial, i) - 1;
+        c[0] = 0.5;
+        const double t = dering_time(bands, c);
+        for (int l = 0; l < bands; ++l) factors[l] = window_gauss(l, t);
+        sh_scale_bands<double, double>(factors, c);
+        EXPECT_GE(least_value(bands, c), -2e-6) << bands << " bands, trial " << trial;
+        EXPECT_EQ(c[0], 0.5);
+    }
 }
 
 TEST(Dering, LeavesWhatIsNotNegative) {
