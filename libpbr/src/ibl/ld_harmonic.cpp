@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "pbr/ibl/ld.hpp"
+#include "pbr/ibl/zonal_harmonics.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
 #include "pbr/numerics/elementary.hpp"
 
@@ -121,7 +122,7 @@ int LdHarmonic::bands_for(double alpha, double max_error) {
 
 LdHarmonic::Level::Level(const LdHarmonic& of, double alpha, const ForEach& each)
     : alpha_(alpha), bright_(of.bright_blocks_ ? &*of.bright_blocks_ : nullptr) {
-    const std::vector<double> kernel = GgxZonalKernel(alpha).coefficients(of.bands());
+    const std::vector<double> kernel = zonal_ggx(GgxZonalKernel(alpha), of.bands() + 1);
     bands_ = band_limit(of, kernel);
     grid_.emplace(*of.spectrum_, std::span(kernel).first(static_cast<std::size_t>(bands_) + 1), each);
 }

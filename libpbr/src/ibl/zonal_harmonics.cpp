@@ -27,20 +27,36 @@ double zonal_cosine(int l) {
 
 std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands) {
     assert(bands >= 1);
-    // Panels in 1 - mu: the core, of width alpha^2, then doubling up to the horizon. The widest spans 60
-    // degrees, over which the highest band waves bands/6 times.
-    const QuadratureRule rule = gauss_legendre(24 + bands / 2);
-    std::vector<double> coefficients(bands), polynomials(bands);
-    double low = 0, high = std::min(1.0, kernel.alpha() * kernel.alpha());
-    while (low < 1) {
+    // Panels of the polar angle as wide as what happens there: the core's own width, half the distance beyond
+    // it, and a wave of the highest band everywhere. Sixteen points leave rounding alone.
+    static const QuadratureRule rule = gauss_legendre(16);
+    const double wave = 2 * std::numbers::pi / bands;
+    std::vector<double> mu, weight;
+    for (double from = 0; from < std::numbers::pi / 2;) {
+        const double rest = std::numbers::pi / 2 - from;
+        const double width = std::min(std::max(kernel.alpha(), from / 2), wave);
+        const bool last = rest < width * (1 + 1e-9);
         for (int i = 0; i < rule.size(); ++i) {
-            const double x = low + (high - low) * rule.nodes[i];
-            const double weight = 2 * std::numbers::pi * (high - low) * rule.weights[i] * kernel.value(x);
-            legendre_polynomials<double>(1 - x, polynomials);
-            for (int l = 0; l < bands; ++l) coefficients[l] += weight * polynomials[l];
+            const double turns = (from + (last ? rest : width) * rule.nodes[i]) / std::numbers::pi;
+            const SinCos half = sin_cos_pi(turns / 2), whole = sin_cos_pi(turns);
+            mu.push_back(whole.cos);
+            weight.push_back(rule.weights[i] * (last ? rest : width) * 2 * std::numbers::pi * whole.sin *
+                             kernel.value(2 * half.sin * half.sin));
         }
-        low = high;
-        high = std::min(1.0, 2 * high);
+        if (last) break;
+        from += width;
+    }
+    // Bonnet's recurrence, all angles together.
+    std::vector<double> before(mu.size(), 0.0), now(mu.size(), 1.0), coefficients;
+    for (int l = 0; l < bands; ++l) {
+        double sum = 0;
+        for (std::size_t i = 0; i < mu.size(); ++i) {
+            sum += weight[i] * now[i];
+            const double next = ((2 * l + 1) * mu[i] * now[i] - l * before[i]) / (l + 1);
+            before[i] = now[i];
+            now[i] = next;
+        }
+        coefficients.push_back(sum);
     }
     return coefficients;
 }

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "pbr/numerics/elementary.hpp"
-#include "pbr/numerics/quadrature.hpp"
 
 namespace pbr {
 namespace {
@@ -62,40 +61,6 @@ double GgxZonalKernel::sample(double u) const {
         x = next;
     }
     return x;
-}
-
-std::vector<double> GgxZonalKernel::coefficients(int bands) const {
-    // Panels of the polar angle as wide as what happens there: the kernel's scale 2 alpha at the peak, its
-    // tail's own distance beyond, and half a wave of P_bands everywhere. Sixteen points leave rounding alone.
-    static const QuadratureRule rule = gauss_legendre(16);
-    const double half_wave = std::numbers::pi / (bands + 1.0);
-    std::vector<double> mu, weight;
-    for (double from = 0; from < std::numbers::pi / 2;) {
-        const double width =
-            std::min({std::max(alpha_, from / 2), 2 * half_wave, std::numbers::pi / 2 - from});
-        for (int i = 0; i < rule.size(); ++i) {
-            const double angle = (from + width * rule.nodes[i]) / std::numbers::pi;
-            const SinCos half = sin_cos_pi(angle / 2), whole = sin_cos_pi(angle);
-            mu.push_back(whole.cos);
-            weight.push_back(rule.weights[i] * width * 2 * std::numbers::pi * whole.sin *
-                             value(2 * half.sin * half.sin));
-        }
-        from = std::numbers::pi / 2 - from - width < 1e-12 ? std::numbers::pi / 2 : from + width;
-    }
-    std::vector<double> before(mu.size(), 0.0), now(mu.size(), 1.0), k(static_cast<std::size_t>(bands) + 1);
-    for (int l = 0; l <= bands; ++l) {
-        double sum = 0;
-        for (std::size_t i = 0; i < mu.size(); ++i) {
-            sum += weight[i] * now[i];
-            const double next = ((2 * l + 1) * mu[i] * now[i] - l * before[i]) / (l + 1);
-            before[i] = now[i];
-            now[i] = next;
-        }
-        k[static_cast<std::size_t>(l)] = sum;
-    }
-    const double whole = k[0];
-    for (double& value_of_l : k) value_of_l /= whole;
-    return k;
 }
 
 }  // namespace pbr

@@ -5,7 +5,7 @@
 // is a transform, a product and a transform back (see ibl/zonal_kernel.hpp for why LD is such a filter):
 //
 //     HarmonicSpectrum spectrum(picture, 160, 1, each);              // E_lm
-//     HarmonicGrid level(spectrum, kernel.coefficients(112), each);   // the field of k_l E_lm on a grid
+//     HarmonicGrid level(spectrum, zonal_ggx(kernel, 112), each);  // the field of k_l E_lm on a grid
 //     level.sample(direction, rgb);
 //
 // The one error is that degrees above the band limit are missing; truncation_error tells it from the

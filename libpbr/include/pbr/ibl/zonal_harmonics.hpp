@@ -24,8 +24,8 @@ class GgxZonalKernel;
 double zonal_cosine(int l);
 
 /// k_0 … k_{bands-1} of the GGX lobe: LD_lm = k_l E_lm. k_0 = 1; k_l falls to 0 with growing alpha l.
-/// Gauss-Legendre over panels that double in width from the lobe's core. Absolute error below 1e-12 for alpha
-/// in [1e-4, 1], bands <= 256.
+/// Gauss-Legendre over panels of the polar angle; time grows like bands^2. Absolute error below 1e-12 for
+/// alpha in [1e-4, 1], bands <= 256.
 std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands);
 
 /// Hann's window, (1 + cos(pi l / width)) / 2 up to l = width, then 0; width > 0 in bands, not necessarily

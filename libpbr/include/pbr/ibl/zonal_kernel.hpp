@@ -7,8 +7,6 @@
 // directions: Karis 2013, "Real shading in Unreal Engine 4"; Lagarde & de Rousiers 2014, 4.9.2.) f is written
 // from 1 - mu, which for unit vectors is |n - l|^2 / 2 and does not cancel.
 
-#include <vector>
-
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbr {
@@ -34,11 +32,6 @@ class GgxZonalKernel {
     /// 1 - mu for a share u in [0, 1]: samples with density k, azimuth uniform. Inverse of cdf:
     /// cdf(sample(u)) is within 1e-12 of u.
     double sample(double u) const;
-
-    /// k_l for l = 0 … bands: what the kernel multiplies harmonics of degree l by, 2 pi times its integral
-    /// with the Legendre polynomial P_l. Absolute error below 1e-12; k_0 = 1. Costs about 16 bands^2
-    /// operations. bands >= 0.
-    std::vector<double> coefficients(int bands) const;
 
   private:
     double alpha_, alpha2_, b_, c_;  ///< f = c - b mu
