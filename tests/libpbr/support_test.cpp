@@ -29,6 +29,9 @@ TEST(Support, IntegralsOverDirectionsAreThoseOfPolynomials) {
 
 TEST(Support, UlpDistanceCountsAcrossZero) {
     EXPECT_EQ(ulp_distance(1.0f, std::nextafter(1.0f, 2.0f)), 1);
+    EXPECT_EQ(ulp_distance(1.0, std::nextafter(1.0, 2.0)), 1);
+    EXPECT_EQ(ulp_distance(-1e9, std::nextafter(-1e9, 0.0)), 1);
+    EXPECT_EQ(ulp_distance(1.0, 2.0), 0x1p52);
     EXPECT_EQ(ulp_distance(0.0, -0.0), 0);
     EXPECT_EQ(ulp_distance(std::numeric_limits<double>::denorm_min(), -std::numeric_limits<double>::denorm_min()), 2);
     EXPECT_TRUE(std::isinf(ulp_distance(std::nan(""), 1.0)));

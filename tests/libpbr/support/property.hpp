@@ -60,9 +60,12 @@ double ulp_distance(T a, T b) {
     if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
     const auto ordered = [](T x) {
         const Bits bits = std::bit_cast<Bits>(x);
-        return bits < 0 ? -static_cast<double>(bits & std::numeric_limits<Bits>::max()) : static_cast<double>(bits);
+        return bits < 0 ? -(bits & std::numeric_limits<Bits>::max()) : bits;
     };
-    return std::abs(ordered(a) - ordered(b));
+    const Bits i = ordered(a), j = ordered(b);
+    // Exact where it counts: as doubles, the places of two neighbours of 64 bits are the same or 512 apart.
+    if ((i < 0) == (j < 0)) return static_cast<double>(i < j ? j - i : i - j);
+    return std::abs(static_cast<double>(i)) + std::abs(static_cast<double>(j));
 }
 
 }  // namespace pbr
