@@ -11,11 +11,11 @@ namespace pbr {
 namespace {
 
 TEST(Cie1931, HasThePublishedSums) {
-    // CIE 15:2004 prints the sums of the 1 nm table as 106.865, 106.857, 106.892.
+    // The columns' check sums, from the metadata of the CIE's data set (doi 10.25039/CIE.DS.xvudnb9b).
     const glm::dvec3 sum = tristimulus([](double) { return 1.0; });
-    EXPECT_NEAR(sum.x, 106.865, 1e-3);
-    EXPECT_NEAR(sum.y, 106.857, 1e-3);
-    EXPECT_NEAR(sum.z, 106.892, 1e-3);
+    EXPECT_NEAR(sum.x, 106.865469489595, 1e-12);
+    EXPECT_NEAR(sum.y, 106.8569171011719, 1e-12);
+    EXPECT_NEAR(sum.z, 106.892251278636, 1e-12);
     // So that equal energy is a third each, but for the table's own 5e-5.
     EXPECT_NEAR(chromaticity_of(sum).x, 1.0 / 3, 5e-5);
     EXPECT_NEAR(chromaticity_of(sum).y, 1.0 / 3, 5e-5);

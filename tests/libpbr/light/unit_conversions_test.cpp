@@ -133,20 +133,20 @@ RC_GTEST_PROP(UnitConversions, UndoEachOther, ()) {
               2e-14);
 }
 
-RC_GTEST_PROP(UnitConversions, InFloatAreWithinFiveUlpsOfDouble, ()) {
+RC_GTEST_PROP(UnitConversions, InFloatAreWithinFourUlpsOfDouble, ()) {
     const float x = static_cast<float>(*log_uniform(1e-3, 1e9)),
                 r = static_cast<float>(*log_uniform(1e-3, 1e3));
     const Emitter<double> shape{r, r};
     const Emitter<float> single{r, r};
     const auto ulps = [](auto a, auto b) { return ulp_distance(a.value(), static_cast<float>(b.value())); };
     RC_ASSERT(ulps(luminance_from_power(Lumens<float>(x), single),
-                   luminance_from_power(Lumens<double>(x), shape)) <= 5);
+                   luminance_from_power(Lumens<double>(x), shape)) <= 4);
     RC_ASSERT(ulps(intensity_from_power(Lumens<float>(x), single),
-                   intensity_from_power(Lumens<double>(x), shape)) <= 5);
+                   intensity_from_power(Lumens<double>(x), shape)) <= 4);
     RC_ASSERT(ulps(power_from_luminance(Nits<float>(x), single),
-                   power_from_luminance(Nits<double>(x), shape)) <= 5);
+                   power_from_luminance(Nits<double>(x), shape)) <= 4);
     const float ev = static_cast<float>(*uniform(-20, 30));
-    RC_ASSERT(ulps(luminance_from_ev100(Ev100<float>(ev)), luminance_from_ev100(Ev100<double>(ev))) <= 5);
+    RC_ASSERT(ulps(luminance_from_ev100(Ev100<float>(ev)), luminance_from_ev100(Ev100<double>(ev))) <= 4);
 }
 
 }  // namespace

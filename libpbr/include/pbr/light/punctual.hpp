@@ -74,7 +74,7 @@ T spot_attenuation(T cosine, const SpotCone<T>& cone) {
 
 /// The solid angle that a spot's penumbra leaves of its cone, 2 pi times the integral of spot_attenuation
 /// over the cosine: with it intensity_from_power states the intensity on the axis of a spot that really emits
-/// that power. Exact to rounding of 1 - cos: absolute error below 8 ulp of 1.
+/// that power. Exact to rounding of 1 - cos: absolute error below 16 ulp of 1.
 template <class T>
 Steradians<T> solid_angle_of_spot(const SpotCone<T>& cone) {
     // t = sat(cosine scale + offset) rises from 0 at the outer edge to `top` on the axis, or to 1 before it.
