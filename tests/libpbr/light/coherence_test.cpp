@@ -209,6 +209,21 @@ TEST(Coherence, OneLightGivesTheSameLuxHoweverItIsStated) {
         EXPECT_NEAR(statement.lux / expected, 1, 3e-6) << statement.what;
 }
 
+TEST(Coherence, AWhiteSkyOfTexelsGivesWhatAnEmissiveCeilingDoes) {
+    // All around, 7 nit: from texels with their exact solid angles, from the sky as one disk, and from a
+    // surface's own exitance.
+    constexpr int kSize = 256;
+    const Vec normal = glm::normalize(Vec(.2, .9, -.4));
+    double lux = 0;
+    for (int face = 0; face < 6; ++face)
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x)
+                lux += 7 * cubemap_texel_solid_angle(kSize, x, y) *
+                       std::max(glm::dot(normal, cubemap_texel_direction({face, x, y}, kSize)), 0.0);
+    EXPECT_NEAR(lux / exitance_from_luminance(Nits<double>(7)).value(), 1, 1e-4);
+    EXPECT_NEAR(lux / illuminance_from_disk_luminance(Nits<double>(7), kPi / 2).value(), 1, 1e-4);
+}
+
 /// Flux through a sphere of radius R about the shape, as lux on its inside; the shape's luminance is 1. z in
 /// [-1, 1] in two halves, as a one-sided light has an edge at 0.
 double flux_through_enclosing_sphere(const auto& surface, double R, int directions, int elements) {

@@ -50,7 +50,7 @@ TEST(LuminousEfficacy, OfBlackBodiesDividesByAllOfTheirRadiation) {
     // Planck's law over all wavelengths, in ln(lambda): the sum of a bump is exact to many digits.
     const double kelvin = 3000;
     double radiance = 0, visible = 0;
-    for (double x = -7.5; x < 4; x += 1e-3)
+    for (double x = -7.5; x < 12; x += 1e-3)
         radiance += planck_radiance(1e-6 * std::exp(x), kelvin) * 1e-6 * std::exp(x) * 1e-3;
     for (int i = 0; i < kCieSamples; ++i)
         visible += cie_1931_observer()[i].y * planck_radiance((kCieFirst_nm + i) * 1e-9, kelvin) * 1e-9;

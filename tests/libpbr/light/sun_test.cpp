@@ -83,6 +83,17 @@ RC_GTEST_PROP(Sun, NearestDirectionIsAUnitVectorOnTheDiskAndContinuous, ()) {
     RC_ASSERT(std::abs(glm::length(single) - 1) < 1e-6f);
 }
 
+RC_GTEST_PROP(Sun, ConversionsInFloatAreWithinTheirUlpsOfDouble, ()) {
+    const float s = static_cast<float>(*log_uniform(1e-6, kPi / 2)),
+                x = static_cast<float>(*log_uniform(1, 1e6));
+    RC_ASSERT(ulp_distance(illuminance_from_disk_luminance(Nits<float>(x), s).value(),
+                           static_cast<float>(
+                               illuminance_from_disk_luminance(Nits<double>(x), double(s)).value())) <= 6);
+    RC_ASSERT(ulp_distance(disk_luminance_from_illuminance(Lux<float>(x), s).value(),
+                           static_cast<float>(
+                               disk_luminance_from_illuminance(Lux<double>(x), double(s)).value())) <= 6);
+}
+
 TEST(Sun, ShiningFromItsNearestPointIsTooBrightForSmoothSurfaces) {
     // Seen at the mirror direction, over the disk about it: mean of D against D at the centre.
     const double s = kSunHalfAngle_rad;
