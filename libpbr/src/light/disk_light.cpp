@@ -59,9 +59,16 @@ struct SeenCircle {
     SeenCircle(const DiskLight<double>& light, const Vec& p) : centre(light.centre - p), radius(light.radius) {
         w = glm::dot(centre, light.normal) > 0 ? light.normal : -light.normal;
         cw = glm::dot(centre, w);
+        // On the axis the centre's part in the plane is rounding alone, which need not even lie in the plane.
+        constexpr double kOnAxis = 1e-10;
         const Vec in_plane = centre - cw * w;
-        cu = glm::length(in_plane);
-        u = cu > 0 ? in_plane / cu : frame_about(w).x;
+        if (glm::length(in_plane) > kOnAxis * cw) {
+            const Vec nearly = glm::normalize(in_plane);
+            u = glm::normalize(nearly - glm::dot(nearly, w) * w);
+        } else {
+            u = frame_about(w).x;
+        }
+        cu = std::max(glm::dot(centre, u), 0.0);
         v = glm::cross(w, u);
     }
 

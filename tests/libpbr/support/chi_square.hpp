@@ -18,6 +18,27 @@ namespace pbr {
 /// A sampler is wrong if chance alone would give a worse fit less often than this.
 constexpr double kSignificance = 1e-4;
 
+/// p-value of counts against expected counts, a cell each; cells with fewer than 10 expected are pooled.
+inline double pearson_p_value(const std::vector<double>& observed, const std::vector<double>& expected) {
+    double statistic = 0, pooled_observed = 0, pooled_expected = 0;
+    int cells = 0;
+    for (std::size_t i = 0; i < observed.size(); ++i) {
+        if (expected[i] < 10) {  // too few for the normal approximation: pooled
+            pooled_observed += observed[i];
+            pooled_expected += expected[i];
+            continue;
+        }
+        statistic += (observed[i] - expected[i]) * (observed[i] - expected[i]) / expected[i];
+        ++cells;
+    }
+    if (pooled_expected > 5) {
+        const double difference = pooled_observed - pooled_expected;
+        statistic += difference * difference / pooled_expected;
+        ++cells;
+    }
+    return boost::math::cdf(complement(boost::math::chi_squared(cells - 1), statistic));
+}
+
 /// p-value of samples against a density over a grid of z x azimuth on the sphere from z = `z_min` (0: the upper
 /// hemisphere, -1: all of it) to 1. `sample(u1, u2)` gives a unit vector, `pdf(direction)` its density per
 /// steradian. A sample below z_min fails the test that calls.
@@ -52,23 +73,7 @@ double chi_square_p_value(const Sample& sample, const Pdf& pdf, double z_min = 0
                         rule.weights[a] * rule.weights[b] * cell * kCount *
                         pdf(Vec3<double>(s * std::cos(phi), s * std::sin(phi), z));
                 }
-    double statistic = 0, pooled_observed = 0, pooled_expected = 0;
-    int cells = 0;
-    for (std::size_t i = 0; i < observed.size(); ++i) {
-        if (expected[i] < 10) {  // too few for the normal approximation: pooled
-            pooled_observed += observed[i];
-            pooled_expected += expected[i];
-            continue;
-        }
-        statistic += (observed[i] - expected[i]) * (observed[i] - expected[i]) / expected[i];
-        ++cells;
-    }
-    if (pooled_expected > 5) {
-        const double difference = pooled_observed - pooled_expected;
-        statistic += difference * difference / pooled_expected;
-        ++cells;
-    }
-    return boost::math::cdf(complement(boost::math::chi_squared(cells - 1), statistic));
+    return pearson_p_value(observed, expected);
 }
 
 }  // namespace pbr
