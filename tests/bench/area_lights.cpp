@@ -21,7 +21,8 @@ struct Receiver {
     Vec p, n;
 };
 
-/// Receivers in front of the lights below, at one to three units, turned so that a third has the light across its horizon.
+/// Receivers in front of the lights below, at one to three units, turned so that a third has the light across
+/// its horizon.
 std::array<Receiver, 256> receivers() {
     std::array<Receiver, 256> all;
     for (int i = 0; i < 256; ++i) {
@@ -47,10 +48,10 @@ void each_receiver(benchmark::State& state, const F& f) {
     }
 }
 
-#define PBR_AREA_LIGHT_BENCHMARK(name, ...)                                                \
-    void name(benchmark::State& state) {                                                   \
+#define PBR_AREA_LIGHT_BENCHMARK(name, ...)                                                            \
+    void name(benchmark::State& state) {                                                               \
         each_receiver(state, [](const Vec& p, [[maybe_unused]] const Vec& n) { return __VA_ARGS__; }); \
-    }                                                                                      \
+    }                                                                                                  \
     BENCHMARK(name)
 
 PBR_AREA_LIGHT_BENCHMARK(SphereProjectedSolidAngle, pbr::projected_solid_angle(kSphere, p, n));
@@ -58,14 +59,17 @@ PBR_AREA_LIGHT_BENCHMARK(DiskProjectedSolidAngle, pbr::projected_solid_angle(kDi
 PBR_AREA_LIGHT_BENCHMARK(DiskProjectedSolidAngleFrostbite, pbr::projected_solid_angle_frostbite(kDisk, p, n));
 PBR_AREA_LIGHT_BENCHMARK(DiskSolidAngle, pbr::solid_angle(kDisk, p));
 PBR_AREA_LIGHT_BENCHMARK(RectangleProjectedSolidAngle, pbr::projected_solid_angle(kRectangle, p, n));
-PBR_AREA_LIGHT_BENCHMARK(RectangleProjectedSolidAngleStructured, pbr::projected_solid_angle_structured(kRectangle, p, n));
+PBR_AREA_LIGHT_BENCHMARK(RectangleProjectedSolidAngleStructured,
+                         pbr::projected_solid_angle_structured(kRectangle, p, n));
 PBR_AREA_LIGHT_BENCHMARK(RectangleProjectedSolidAngleMrp, pbr::projected_solid_angle_mrp(kRectangle, p, n));
 PBR_AREA_LIGHT_BENCHMARK(RectangleSolidAngle, pbr::solid_angle(kRectangle, p));
 PBR_AREA_LIGHT_BENCHMARK(RectangleSample, pbr::sample_rectangle_light(kRectangle, p, 0.3, 0.7));
 PBR_AREA_LIGHT_BENCHMARK(TubeProjectedSolidAngle, pbr::projected_solid_angle(kTube, p, n));
-PBR_AREA_LIGHT_BENCHMARK(TubeProjectedSolidAngleStructured, pbr::projected_solid_angle_structured(kTube, p, n));
+PBR_AREA_LIGHT_BENCHMARK(TubeProjectedSolidAngleStructured,
+                         pbr::projected_solid_angle_structured(kTube, p, n));
 PBR_AREA_LIGHT_BENCHMARK(SphereReflectedLuminanceMrp,
-                         pbr::reflected_luminance_mrp(kSphere, pbr::SpecularSurface<double>{p, n, n, 0.25, 0.04}, n,
+                         pbr::reflected_luminance_mrp(kSphere,
+                                                      pbr::SpecularSurface<double>{p, n, n, 0.25, 0.04}, n,
                                                       pbr::kShaderWidening));
 
 #undef PBR_AREA_LIGHT_BENCHMARK

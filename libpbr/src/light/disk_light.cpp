@@ -6,9 +6,9 @@ namespace {
 using Vec = Vec3<double>;
 using std::numbers::pi;
 
-/// The integral over [0, pi/2] of (a cos^2 + b sin^2) / ((cos^2 + p sin^2) sqrt(cos^2 + kc^2 sin^2)) for kc, p > 0
-/// (Bulirsch 1969, "Numerical calculation of elliptic integrals and elliptic functions III", cel), by Bartky's
-/// transformation, which moves p, kc and the means together until they meet.
+/// The integral over [0, pi/2] of (a cos^2 + b sin^2) / ((cos^2 + p sin^2) sqrt(cos^2 + kc^2 sin^2)) for kc,
+/// p > 0 (Bulirsch 1969, "Numerical calculation of elliptic integrals and elliptic functions III", cel), by
+/// Bartky's transformation, which moves p, kc and the means together until they meet.
 double complete_elliptic(double kc, double p, double a, double b) {
     constexpr double kTolerance = 1e-8;  // convergence is quadratic: the result is good to its square
     double root_p = std::sqrt(p), mean = 1, k = kc, product = kc;
@@ -26,9 +26,9 @@ double complete_elliptic(double kc, double p, double a, double b) {
     return pi / 2 * (b + a * mean) / (mean * (mean + root_p));
 }
 
-/// Solid angle of a disk of radius x seen from distance 1 at cosine c to its axis: on the axis it is the series of
-/// 2 pi (1 - 1/sqrt(1 + x^2)), and off it each power x^2k carries the Legendre polynomial P_(2k-1), as any harmonic
-/// function does that is symmetric about the axis.
+/// Solid angle of a disk of radius x seen from distance 1 at cosine c to its axis: on the axis it is the
+/// series of 2 pi (1 - 1/sqrt(1 + x^2)), and off it each power x^2k carries the Legendre polynomial P_(2k-1),
+/// as any harmonic function does that is symmetric about the axis.
 double multipole_solid_angle(double x, double c) {
     constexpr int kTerms = 8;  // at x = 0.1 the next one is below 1e-16 of the first
     double sum = 0, coefficient = 0.5 * x * x, legendre = c, before = 1;
@@ -50,13 +50,14 @@ double log1p_ratio(double x) { return x == 0 ? 1 : std::log1p(x) / x; }
 /// atan(x) / x, 1 at 0.
 double atan_ratio(double x) { return x == 0 ? 1 : std::atan(x) / x; }
 
-/// A circle seen from the origin: r(phi) = centre + radius (u cos phi + v sin phi), where u lies along the centre's
-/// part in the circle's plane, so centre = cu u + cw w with w the axis away from the origin.
+/// A circle seen from the origin: r(phi) = centre + radius (u cos phi + v sin phi), where u lies along the
+/// centre's part in the circle's plane, so centre = cu u + cw w with w the axis away from the origin.
 struct SeenCircle {
     Vec centre, u, v, w;
     double cu, cw, radius;
 
-    SeenCircle(const DiskLight<double>& light, const Vec& p) : centre(light.centre - p), radius(light.radius) {
+    SeenCircle(const DiskLight<double>& light, const Vec& p)
+        : centre(light.centre - p), radius(light.radius) {
         w = glm::dot(centre, light.normal) > 0 ? light.normal : -light.normal;
         cw = glm::dot(centre, w);
         // On the axis the centre's part in the plane is rounding alone, which need not even lie in the plane.
@@ -83,8 +84,8 @@ struct SeenCircle {
     }
 };
 
-/// 1/2 n . contour integral over the whole circle: pi R^2/S [n_w - 2 cu (cu n_w - cw n_u)/(S + d0)], with S + d0 - 2
-/// cu^2 rewritten where cu > R, since it cancels for a disk seen edge on.
+/// 1/2 n . contour integral over the whole circle: pi R^2/S [n_w - 2 cu (cu n_w - cw n_u)/(S + d0)], with S +
+/// d0 - 2 cu^2 rewritten where cu > R, since it cancels for a disk seen edge on.
 double whole_circle(const SeenCircle& c, const Vec& n) {
     const double S = c.root(), n_u = glm::dot(n, c.u), n_w = glm::dot(n, c.w);
     const double beside = (c.cu - c.radius) * (c.cu + c.radius), cw2 = c.cw * c.cw;
@@ -94,9 +95,9 @@ double whole_circle(const SeenCircle& c, const Vec& n) {
 }
 
 /// 1/2 n . contour integral over the arc from phi0 to phi1 = phi0 + sweep: half the integral of
-/// (a0 + a1 cos phi + a2 sin phi)/(d0 + d1 cos phi). With t = d1/(d0 + S) its parts have branch-free primitives:
-/// that of 1/(d0 + d1 cos phi) is (phi - 2 psi)/S, tan psi = t sin phi/(1 + t cos phi). Nothing divides by d1, so
-/// the axis is no special case.
+/// (a0 + a1 cos phi + a2 sin phi)/(d0 + d1 cos phi). With t = d1/(d0 + S) its parts have branch-free
+/// primitives: that of 1/(d0 + d1 cos phi) is (phi - 2 psi)/S, tan psi = t sin phi/(1 + t cos phi). Nothing
+/// divides by d1, so the axis is no special case.
 double arc(const SeenCircle& c, const Vec& n, double phi0, double sweep) {
     const double S = c.root(), d0 = c.d0(), d1 = c.d1(), t = d1 / (d0 + S), phi1 = phi0 + sweep;
     const double n_u = glm::dot(n, c.u), n_v = glm::dot(n, c.v), n_w = glm::dot(n, c.w);

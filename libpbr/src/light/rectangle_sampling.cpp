@@ -15,6 +15,9 @@ double solid_angle_of(double x0, double x1, double y0, double y1, double depth) 
     return std::abs(solid_angle_triangle(a, b, c, origin) + solid_angle_triangle(a, c, d, origin));
 }
 
+/// Sine of the elevation of y over the plane of x and z, at distance `reach` in it.
+double height_fraction(double y, double reach) { return y / std::sqrt(reach * reach + y * y); }
+
 }  // namespace
 
 SphericalRectangle::SphericalRectangle(const RectangleLight<double>& light, const Vec& p)
@@ -35,21 +38,18 @@ SphericalRectangle::SphericalRectangle(const RectangleLight<double>& light, cons
     by_area_ = solid_angle_ < kSmallestSpherical;
 }
 
-/// Sine of the elevation of y over the plane of x and z, at distance `reach` in it.
-double SphericalRectangle::height_fraction(double y, double reach) const {
-    return y / std::sqrt(reach * reach + y * y);
-}
-
 Vec SphericalRectangle::sample(double u1, double u2) const {
     if (!(solid_angle_ > 0)) return Vec(0, 0, 1);
     const auto towards = [&](double x, double y) { return glm::normalize(x * x_ + y * y_ + depth_ * z_); };
     if (by_area_) return towards(x0_ + u1 * (x1_ - x0_), y0_ + u2 * (y1_ - y0_));
-    // The planes through p and the sides y0 and y1 have normals with z-parts b0 and b1. The part of the rectangle up to
-    // x has the solid angle A = (angle with b0) + (angle with b1) - (the two at x0), so cos of the angles at x is
-    // linear in the z-part of the moving plane's normal, which gives x.
+    // The planes through p and the sides y0, y1 and x0 have unit normals with z-parts b0, b1 and n0. By
+    // Girard the part of the rectangle up to x has the solid angle acos(b0 c) + acos(b1 c) less the same at
+    // x0, up to signs and 2 pi, where c is the z-part for the side at x. Solved for c with the addition
+    // theorem, and x from c.
     const double b0 = -y0_ / std::hypot(depth_, y0_), b1 = y1_ / std::hypot(depth_, y1_);
     const double n0 = x0_ / std::hypot(depth_, x0_);
-    const double at_x0 = std::acos(std::clamp(b1 * n0, -1.0, 1.0)) + std::acos(std::clamp(b0 * n0, -1.0, 1.0));
+    const double at_x0 =
+        std::acos(std::clamp(b1 * n0, -1.0, 1.0)) + std::acos(std::clamp(b0 * n0, -1.0, 1.0));
     const double angle = u1 * solid_angle_ - at_x0;
     const double sine = std::sin(angle);
     const double f = (std::cos(angle) * b0 - b1) / sine;
@@ -75,7 +75,8 @@ double SphericalRectangle::pdf(const Vec& wi) const {
     if (!meets_plane(wi, point)) return 0;
     // Samples that were clamped to a side must not miss it by the rounding of their direction.
     const double slack = 1e-12 * (std::abs(x0_) + std::abs(x1_) + std::abs(y0_) + std::abs(y1_) + depth_);
-    if (point.x < x0_ - slack || point.x > x1_ + slack || point.y < y0_ - slack || point.y > y1_ + slack) return 0;
+    if (point.x < x0_ - slack || point.x > x1_ + slack || point.y < y0_ - slack || point.y > y1_ + slack)
+        return 0;
     if (!by_area_) return 1 / solid_angle_;
     const double d2 = point.x * point.x + point.y * point.y + depth_ * depth_;
     return d2 * std::sqrt(d2) / (depth_ * (x1_ - x0_) * (y1_ - y0_));

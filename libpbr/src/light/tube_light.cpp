@@ -8,10 +8,11 @@ namespace {
 using Vec = Vec3<double>;
 using std::numbers::pi;
 
-/// Lambert's contour integral of a convex outline on the sphere of directions, the part above the horizon of n. Pieces
-/// come in order, counterclockwise about the light as seen along the way from p. What lies above the horizon is summed, and
-/// consecutive parts are joined by great arcs: where the outline dives and comes up again that is the horizon itself,
-/// and where pieces meet it is a rounding long, so that pieces need not agree on which of them crosses.
+/// Lambert's contour integral of a convex outline on the sphere of directions, the part above the horizon of
+/// n. Pieces come in order, counterclockwise about the light as seen along the way from p. What lies above
+/// the horizon is summed, and consecutive parts are joined by great arcs: where the outline dives and comes
+/// up again that is the horizon itself, and where pieces meet it is a rounding long, so that pieces need not
+/// agree on which of them crosses.
 class ClippedOutline {
   public:
     explicit ClippedOutline(const Vec& n) : n_(n) {}
@@ -25,8 +26,8 @@ class ClippedOutline {
         part(a, b, lambert_edge(a, b, n_));
     }
 
-    /// The arc of the small circle cos_s axis + sin_s (x cos phi + y sin phi), |phi| <= half <= pi; x, y, axis
-    /// right-handed.
+    /// The arc of the small circle cos_s axis + sin_s (x cos phi + y sin phi), |phi| <= half <= pi; x, y,
+    /// axis right-handed.
     void small_arc(const Vec& axis, const Vec& x, const Vec& y, double sin_s, double half) {
         const double cos_s = std::sqrt((1 - sin_s) * (1 + sin_s));
         const double n_x = glm::dot(n_, x), n_y = glm::dot(n_, y), n_axis = glm::dot(n_, axis);
@@ -38,8 +39,9 @@ class ClippedOutline {
                 return cos_s * axis + sin_s * (std::cos(phi) * x + std::sin(phi) * y);
             };
             // n.(r x dr) = sin^2 n_axis - sin cos (n_x cos phi + n_y sin phi)
-            const double swept = sin_s * n_axis * (to - from) - cos_s * (n_x * (std::sin(to) - std::sin(from)) -
-                                                                         n_y * (std::cos(to) - std::cos(from)));
+            const double swept =
+                sin_s * n_axis * (to - from) -
+                cos_s * (n_x * (std::sin(to) - std::sin(from)) - n_y * (std::cos(to) - std::cos(from)));
             part(at(from), at(to), 0.5 * sin_s * swept);
         };
         if (middle >= swing) return stretch(-half, half);
@@ -70,8 +72,8 @@ class ClippedOutline {
     double sum_ = 0;
 };
 
-/// Appends the outline's arc around the end at c (relative to p), whose outward axis is `out`; `edge` is the cosine
-/// share sqrt(1 - r^2/D^2) of the tangent planes through p, D the distance of p from the axis' line.
+/// Appends the outline's arc around the end at c (relative to p), whose outward axis is `out`; `edge` is the
+/// cosine share sqrt(1 - r^2/D^2) of the tangent planes through p, D the distance of p from the axis' line.
 void append_cap(ClippedOutline& outline, const Vec& c, const Vec& out, double radius, double D, double edge) {
     const double distance = glm::length(c);
     const Vec axis = c / distance;
@@ -96,7 +98,8 @@ double projected_solid_angle(const TubeLight<double>& light, const Vec& p, const
         return projected_solid_angle(SphereLight<double>{nearest, r}, Vec(0), n);
     const Vec towards = foot / D, across = glm::cross(axis, towards);
     const double edge = std::sqrt((1 - r / D) * (1 + r / D));
-    // Where the two planes through p that are tangent to the cylinder touch it: c - r (towards r/D +- across edge).
+    // Where the two planes through p that are tangent to the cylinder touch it: c - r (towards r/D +- across
+    // edge).
     const Vec left = -r * (r / D * towards - edge * across), right = -r * (r / D * towards + edge * across);
     ClippedOutline outline(n);
     outline.great_arc(c0 + left, c1 + left);

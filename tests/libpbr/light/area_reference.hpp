@@ -1,6 +1,7 @@
 #pragma once
-// Area lights by brute force: adaptive Gauss-Kronrod over the light's surface of the rendering equation's area form.
-// Shares with libpbr the shapes alone. And the grid of scenes on which approximations are measured.
+// Area lights by brute force: adaptive Gauss-Kronrod over the light's surface of the rendering equation's
+// area form. Shares with libpbr the shapes alone. And the grid of scenes on which approximations are
+// measured.
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -49,7 +50,8 @@ template <class F>
 double integrate_surface(const RectangleLight<double>& light, const F& f, double tolerance = 1e-7) {
     const Vec area = glm::cross(light.half_x, light.half_y);
     const auto at = [&](double x, double y) {
-        return glm::length(area) * f(light.centre + x * light.half_x + y * light.half_y, glm::normalize(area));
+        return glm::length(area) *
+               f(light.centre + x * light.half_x + y * light.half_y, glm::normalize(area));
     };
     return integrate_2d(at, -1, 1, -1, 1, tolerance);
 }
@@ -81,7 +83,8 @@ double integrate_light(const Light& light, const Vec& p, const F& f, double tole
     return integrate_surface(light, at, tolerance);
 }
 
-/// The same for a sphere: over the part of its surface that p sees, in rings about the line from its centre to p.
+/// The same for a sphere: over the part of its surface that p sees, in rings about the line from its centre
+/// to p.
 template <class F>
 double integrate_light(const SphereLight<double>& light, const Vec& p, const F& f, double tolerance = 1e-7) {
     const double distance = glm::length(p - light.centre), r = light.radius;
@@ -104,11 +107,12 @@ double reference_projected_solid_angle(const Light& light, const Vec& p, const V
 
 template <class Light>
 double reference_solid_angle(const Light& light, const Vec& p) {
-    return integrate_light(light, p, [](const Vec&) { return 1.0; }, 1e-10);
+    return integrate_light(
+        light, p, [](const Vec&) { return 1.0; }, 1e-10);
 }
 
-/// Calls f(p, n) for receivers around a light at the origin with normal +z: at `distance`, from head-on to nearly edge
-/// on in two azimuths, turned by up to 100 deg from the light to four sides.
+/// Calls f(p, n) for receivers around a light at the origin with normal +z: at `distance`, from head-on to
+/// nearly edge on in two azimuths, turned by up to 100 deg from the light to four sides.
 template <class F>
 void for_each_receiver(double distance, const F& f) {
     for (const double from_axis : {0.0, 25.0, 50.0, 70.0, 85.0})
@@ -126,7 +130,8 @@ void for_each_receiver(double distance, const F& f) {
 
 /// Worst of |approximate - exact| / normaliser over for_each_receiver.
 template <class Approximate, class Exact, class Normaliser>
-double worst_error(double distance, const Approximate& approximate, const Exact& exact, const Normaliser& normaliser) {
+double worst_error(double distance, const Approximate& approximate, const Exact& exact,
+                   const Normaliser& normaliser) {
     double worst = 0;
     for_each_receiver(distance, [&](const Vec& p, const Vec& n) {
         worst = std::max(worst, std::abs(approximate(p, n) - exact(p, n)) / normaliser(p));

@@ -30,8 +30,8 @@ struct Ratios {
     double lowest = 1e9, highest = 0;
 };
 
-/// Representative point over brute force, for views at 10, 45 and 75 deg and lights whose centre is 0, 1/2, 1 and 2 of
-/// their own angular radius from the mirror direction, towards the normal.
+/// Representative point over brute force, for views at 10, 45 and 75 deg and lights whose centre is 0, 1/2, 1
+/// and 2 of their own angular radius from the mirror direction, towards the normal.
 template <class MakeLight>
 Ratios ratios(const MakeLight& make_light, double size, double alpha, double widening) {
     Ratios result;
@@ -65,11 +65,22 @@ void expect_ratios(const MakeLight& make_light, double widening, const std::vect
 
 TEST(AreaSpecular, SphereErrsAsStated) {
     expect_ratios(sphere_at, kCourseNotesWidening,
-                  {{.05, .1, .780, 1.444}, {.05, .5, .938, 1.058}, {.2, .1, .718, 4.648}, {.2, .25, .712, 1.956},
-                   {.2, .5, .795, 1.353}, {.5, .25, .680, 5.237}, {.5, .5, .638, 2.255}, {.5, 1, .865, 1.806}});
+                  {{.05, .1, .780, 1.444},
+                   {.05, .5, .938, 1.058},
+                   {.2, .1, .718, 4.648},
+                   {.2, .25, .712, 1.956},
+                   {.2, .5, .795, 1.353},
+                   {.5, .25, .680, 5.237},
+                   {.5, .5, .638, 2.255},
+                   {.5, 1, .865, 1.806}});
     expect_ratios(sphere_at, kShaderWidening,
-                  {{.05, .1, .680, 1.258}, {.05, .5, .908, 1.024}, {.2, .1, .499, 3.228}, {.2, .25, .583, 1.601},
-                   {.2, .5, .709, 1.207}, {.5, .25, .472, 3.637}, {.5, .5, .504, 1.782}});
+                  {{.05, .1, .680, 1.258},
+                   {.05, .5, .908, 1.024},
+                   {.2, .1, .499, 3.228},
+                   {.2, .25, .583, 1.601},
+                   {.2, .5, .709, 1.207},
+                   {.5, .25, .472, 3.637},
+                   {.5, .5, .504, 1.782}});
 }
 
 TEST(AreaSpecular, TubeErrsAsStated) {
@@ -80,16 +91,23 @@ TEST(AreaSpecular, TubeErrsAsStated) {
 
 TEST(AreaSpecular, DiskAndRectangleErrAsStated) {
     expect_ratios(disk_at, kShaderWidening,
-                  {{.05, .1, 1.062, 1.964}, {.05, .5, 1.001, 1.129}, {.2, .1, 1.957, 12.542}, {.2, .25, 1.137, 3.065},
+                  {{.05, .1, 1.062, 1.964},
+                   {.05, .5, 1.001, 1.129},
+                   {.2, .1, 1.957, 12.542},
+                   {.2, .25, 1.137, 3.065},
                    {.2, .5, 1.021, 1.716}});
     expect_ratios(rectangle_at, kShaderWidening,
-                  {{.05, .1, 1.082, 2.101}, {.05, .5, 1.002, 1.134}, {.2, .1, 2.225, 15.051}, {.2, .25, 1.178, 3.407},
+                  {{.05, .1, 1.082, 2.101},
+                   {.05, .5, 1.002, 1.134},
+                   {.2, .1, 2.225, 15.051},
+                   {.2, .25, 1.178, 3.407},
                    {.2, .5, 1.027, 1.781}});
 }
 
 TEST(AreaSpecular, FSpecularIsTheTextbooksMicrofacetBrdf) {
     const double alpha = 0.3, f0 = 0.04;
-    const Vec n = glm::normalize(Vec(0.1, 0.2, 1)), wo = glm::normalize(Vec(1, 0, 1)), wi = glm::normalize(Vec(-0.5, 0.6, 0.7));
+    const Vec n = glm::normalize(Vec(0.1, 0.2, 1)), wo = glm::normalize(Vec(1, 0, 1)),
+              wi = glm::normalize(Vec(-0.5, 0.6, 0.7));
     const Vec h = glm::normalize(wo + wi);
     const double c = glm::dot(n, h), a2 = alpha * alpha, tan2 = 1 / (c * c) - 1;
     const double D = a2 / (pi * std::pow(c, 4) * std::pow(a2 + tan2, 2));
@@ -108,12 +126,13 @@ RC_GTEST_PROP(AreaSpecular, SmallLightsArePoints, ()) {
     const Vec n(0, 0, 1), wo(std::sin(theta), 0, std::cos(theta)), wi = *direction(0.1);
     const SpecularSurface<double> surface{Vec(0), n, wo, alpha, 0.5};
     const double size = 1e-6, expected = f_specular(surface, wi) * wi.z;
-    for (const double got : {reflected_luminance_mrp(sphere_at(wi, size), surface, reflected(n, wo), kShaderWidening) /
-                                 solid_angle(sphere_at(wi, size), Vec(0)),
-                             reflected_luminance_mrp(disk_at(wi, size), surface, reflected(n, wo), kShaderWidening) /
-                                 solid_angle(disk_at(wi, size), Vec(0)),
-                             reflected_luminance_mrp(rectangle_at(wi, size), surface, reflected(n, wo), kShaderWidening) /
-                                 solid_angle(rectangle_at(wi, size), Vec(0))})
+    for (const double got :
+         {reflected_luminance_mrp(sphere_at(wi, size), surface, reflected(n, wo), kShaderWidening) /
+              solid_angle(sphere_at(wi, size), Vec(0)),
+          reflected_luminance_mrp(disk_at(wi, size), surface, reflected(n, wo), kShaderWidening) /
+              solid_angle(disk_at(wi, size), Vec(0)),
+          reflected_luminance_mrp(rectangle_at(wi, size), surface, reflected(n, wo), kShaderWidening) /
+              solid_angle(rectangle_at(wi, size), Vec(0))})
         RC_ASSERT(std::abs(got - expected) < 1e-3 * expected);
 }
 
@@ -130,11 +149,13 @@ double searched_distance(const Light& light, const Vec& r) {
 
 RC_GTEST_PROP(AreaSpecular, RepresentativePointIsNearestToTheRay, ()) {
     const Vec r = *direction();
-    const TubeLight<double> tube{*log_uniform(0.5, 3) * *direction(), *log_uniform(0.5, 3) * *direction(), *log_uniform(0.01, 0.3)};
+    const TubeLight<double> tube{*log_uniform(0.5, 3) * *direction(), *log_uniform(0.5, 3) * *direction(),
+                                 *log_uniform(0.01, 0.3)};
     const Vec point = representative_point(tube, Vec(0), r);
     const double distance = glm::length(point - glm::dot(point, r) * r);
     RC_ASSERT(std::abs(distance - searched_distance(tube, r)) < 0.01);
-    RC_ASSERT(glm::length(point - closest_point_on_segment(tube.end0, tube.end1, point)) < tube.radius * (1 + 1e-9));
+    RC_ASSERT(glm::length(point - closest_point_on_segment(tube.end0, tube.end1, point)) <
+              tube.radius * (1 + 1e-9));
 }
 
 RC_GTEST_PROP(AreaSpecular, RepresentativePointOfFlatLightsIsTheHitWhereTheRayHits, ()) {
@@ -158,9 +179,12 @@ TEST(AreaSpecular, NormalisationIsOneForAPointAndForFlatLights) {
     EXPECT_EQ(specular_normalisation(sphere_at(Vec(0, 0, 1), 0), Vec(0), 0.3, kShaderWidening), 1);
     EXPECT_EQ(specular_normalisation(disk_at(Vec(0, 0, 1), 0.5), Vec(0), 0.3, kShaderWidening), 1);
     EXPECT_EQ(specular_normalisation(rectangle_at(Vec(0, 0, 1), 0.5), Vec(0), 0.3, kShaderWidening), 1);
-    EXPECT_NEAR(specular_normalisation(sphere_at(Vec(0, 0, 1), 0.2), Vec(0), 0.1, kShaderWidening), 0.25, 1e-15);
-    EXPECT_NEAR(specular_normalisation(sphere_at(Vec(0, 0, 1), 0.3), Vec(0), 0.1, kCourseNotesWidening), 0.25, 1e-15);
-    EXPECT_EQ(specular_normalisation(sphere_at(Vec(0, 0, 1), 0.3), Vec(0), 1.0, kShaderWidening), 1);  // clamped
+    EXPECT_NEAR(specular_normalisation(sphere_at(Vec(0, 0, 1), 0.2), Vec(0), 0.1, kShaderWidening), 0.25,
+                1e-15);
+    EXPECT_NEAR(specular_normalisation(sphere_at(Vec(0, 0, 1), 0.3), Vec(0), 0.1, kCourseNotesWidening), 0.25,
+                1e-15);
+    EXPECT_EQ(specular_normalisation(sphere_at(Vec(0, 0, 1), 0.3), Vec(0), 1.0, kShaderWidening),
+              1);  // clamped
     EXPECT_NEAR(specular_normalisation(tube_at(Vec(0, 0, 1), 0), Vec(0), 0.5, kShaderWidening), 0.5, 1e-15);
 }
 
@@ -178,10 +202,11 @@ RC_GTEST_PROP(AreaSpecular, IsFiniteEverywhere, ()) {
     const double size = *uniform(0, 2), alpha = std::max(*unit_interval(), 1e-3);
     const SpecularSurface<double> surface{Vec(0), n, wo, alpha, *unit_interval()};
     const Vec r = reflected(n, wo);
-    for (const double got : {reflected_luminance_mrp(sphere_at(towards, size), surface, r, kShaderWidening),
-                             reflected_luminance_mrp(disk_at(towards, size), surface, r, kShaderWidening),
-                             reflected_luminance_mrp(rectangle_at(towards, size), surface, r, kShaderWidening),
-                             reflected_luminance_mrp(tube_at(towards, size), surface, r, kShaderWidening)})
+    for (const double got :
+         {reflected_luminance_mrp(sphere_at(towards, size), surface, r, kShaderWidening),
+          reflected_luminance_mrp(disk_at(towards, size), surface, r, kShaderWidening),
+          reflected_luminance_mrp(rectangle_at(towards, size), surface, r, kShaderWidening),
+          reflected_luminance_mrp(tube_at(towards, size), surface, r, kShaderWidening)})
         RC_ASSERT(std::isfinite(got) && got >= 0);
 }
 

@@ -33,9 +33,10 @@ double as_polygon(const DiskLight<double>& light, const Vec& n) {
 }
 
 TEST(DiskLight, AgreesWithTheIntegralOverItsSurface) {
-    const DiskLight<double> lights[] = {{{0.5, 0.2, 1}, glm::normalize(Vec(-0.3, 0.1, -1)), 0.6},  // all above
-                                        {{1, 0.2, 0.1}, glm::normalize(Vec(-1, 0.1, 0.4)), 0.6},  // across the horizon
-                                        {{0.5, 0.2, 0.3}, {0, 0, -1}, 0.9}};                      // p below it
+    const DiskLight<double> lights[] = {
+        {{0.5, 0.2, 1}, glm::normalize(Vec(-0.3, 0.1, -1)), 0.6},  // all above
+        {{1, 0.2, 0.1}, glm::normalize(Vec(-1, 0.1, 0.4)), 0.6},   // across the horizon
+        {{0.5, 0.2, 0.3}, {0, 0, -1}, 0.9}};                       // p below it
     for (const DiskLight<double>& light : lights) {
         EXPECT_NEAR(projected_solid_angle(light, Vec(0), Vec(0, 0, 1)),
                     reference_projected_solid_angle(light, Vec(0), Vec(0, 0, 1)), 1e-6);
@@ -114,13 +115,15 @@ RC_GTEST_PROP(DiskLight, IsContinuousWhereItTouchesTheHorizon, ()) {
 TEST(DiskLight, ShinesFromItsFrontOrBothAndNotInItsPlane) {
     DiskLight<double> light = kDisk;
     const Vec behind(0.1, 0, -1), up(0, 0, 1);
-    for (const double E : {projected_solid_angle(light, behind, up), projected_solid_angle_frostbite(light, behind, up),
-                           projected_solid_angle_mrp(light, behind, up), solid_angle(light, behind)})
+    for (const double E :
+         {projected_solid_angle(light, behind, up), projected_solid_angle_frostbite(light, behind, up),
+          projected_solid_angle_mrp(light, behind, up), solid_angle(light, behind)})
         EXPECT_EQ(E, 0);
     light.emission = Emission::two_sided;
     const Vec front(0.1, 0, 1);
     EXPECT_EQ(projected_solid_angle(light, behind, up), projected_solid_angle(light, front, -up));
-    EXPECT_EQ(projected_solid_angle_frostbite(light, behind, up), projected_solid_angle_frostbite(light, front, -up));
+    EXPECT_EQ(projected_solid_angle_frostbite(light, behind, up),
+              projected_solid_angle_frostbite(light, front, -up));
     EXPECT_EQ(projected_solid_angle_mrp(light, behind, up), projected_solid_angle_mrp(light, front, -up));
     for (const Vec& p : {Vec(0), Vec(0.5, 0, 0), Vec(0.2, 0, 0), Vec(2, 0, 0)})
         for (const Vec& n : {Vec(0, 0, 1), Vec(1, 0, 0)}) {
@@ -156,9 +159,13 @@ const auto kSolidAngle = [](const Vec& p) { return solid_angle(kDisk, p); };
 const auto kExact = [](const Vec& p, const Vec& n) { return projected_solid_angle(kDisk, p, n); };
 
 TEST(DiskLight, FrostbiteErrsAsStated) {
-    const auto frostbite = [](const Vec& p, const Vec& n) { return projected_solid_angle_frostbite(kDisk, p, n); };
+    const auto frostbite = [](const Vec& p, const Vec& n) {
+        return projected_solid_angle_frostbite(kDisk, p, n);
+    };
     for (const double distance : {0.5, 1.0, 4.0})  // head-on it is exact from one radius on
-        EXPECT_NEAR(frostbite(Vec(0, 0, distance), Vec(0, 0, -1)) / kExact(Vec(0, 0, distance), Vec(0, 0, -1)), 1, 1e-14);
+        EXPECT_NEAR(
+            frostbite(Vec(0, 0, distance), Vec(0, 0, -1)) / kExact(Vec(0, 0, distance), Vec(0, 0, -1)), 1,
+            1e-14);
     EXPECT_NEAR(frostbite(Vec(0, 0, 0.1), Vec(0, 0, -1)) / kExact(Vec(0, 0, 0.1), Vec(0, 0, -1)), 0.52, 5e-3);
     EXPECT_NEAR(worst_error(0.5, frostbite, kExact, kSolidAngle), 0.69, 5e-3);
     EXPECT_NEAR(worst_error(1, frostbite, kExact, kSolidAngle), 0.38, 5e-3);
@@ -187,8 +194,8 @@ RC_GTEST_PROP(DiskLight, AreaSampleAndInverseAreARoundTrip, ()) {
 }
 
 TEST(DiskLight, AreaSamplesHaveTheDisksMoments) {
-    // Uniform in area: a point's squared distance from the centre is uniform in [0, r^2], and u1's mean and variance are
-    // those of a uniform number; directions have no preference.
+    // Uniform in area: a point's squared distance from the centre is uniform in [0, r^2], and u1's mean and
+    // variance are those of a uniform number; directions have no preference.
     double mean = 0, square = 0;
     Vec sum(0);
     constexpr int kCount = 100'000;

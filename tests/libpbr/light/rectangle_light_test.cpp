@@ -24,7 +24,8 @@ TEST(RectangleLight, AgreesWithTheIntegralOverItsSurface) {
     RectangleLight<double> front = light;
     if (glm::dot(front_normal(light), light.centre) > 0) front.half_x = -front.half_x;
     for (const Vec& n : {Vec(0, 0, 1), Vec(1, 0, 0), Vec(-0.6, 0, 0.8)})
-        EXPECT_NEAR(projected_solid_angle(light, Vec(0), n), reference_projected_solid_angle(front, Vec(0), n), 1e-6);
+        EXPECT_NEAR(projected_solid_angle(light, Vec(0), n),
+                    reference_projected_solid_angle(front, Vec(0), n), 1e-6);
     EXPECT_NEAR(solid_angle(light, Vec(0)), reference_solid_angle(front, Vec(0)), 1e-9);
 }
 
@@ -46,29 +47,35 @@ RC_GTEST_PROP(RectangleLight, IsBetweenItsBounds, ()) {
     RC_ASSERT(omega >= 0 && omega < 2 * pi);
     RC_ASSERT(other >= 0);
     // E(n) - E(-n) is linear in n: the light's vector irradiance.
-    const Vec vector(projected_solid_angle(light, Vec(0), Vec(1, 0, 0)) - projected_solid_angle(light, Vec(0), Vec(-1, 0, 0)),
-                     projected_solid_angle(light, Vec(0), Vec(0, 1, 0)) - projected_solid_angle(light, Vec(0), Vec(0, -1, 0)),
-                     projected_solid_angle(light, Vec(0), Vec(0, 0, 1)) - projected_solid_angle(light, Vec(0), Vec(0, 0, -1)));
+    const Vec vector(projected_solid_angle(light, Vec(0), Vec(1, 0, 0)) -
+                         projected_solid_angle(light, Vec(0), Vec(-1, 0, 0)),
+                     projected_solid_angle(light, Vec(0), Vec(0, 1, 0)) -
+                         projected_solid_angle(light, Vec(0), Vec(0, -1, 0)),
+                     projected_solid_angle(light, Vec(0), Vec(0, 0, 1)) -
+                         projected_solid_angle(light, Vec(0), Vec(0, 0, -1)));
     RC_ASSERT(std::abs(E - other - glm::dot(vector, n)) < 1e-8 * omega + 1e-13);
-    for (const double approximate : {projected_solid_angle_structured(light, Vec(0), n), projected_solid_angle_mrp(light, Vec(0), n)})
+    for (const double approximate :
+         {projected_solid_angle_structured(light, Vec(0), n), projected_solid_angle_mrp(light, Vec(0), n)})
         RC_ASSERT(approximate >= 0 && approximate <= omega + 1e-12);
 }
 
 RC_GTEST_PROP(RectangleLight, FloatIsTheDoubleOfItsInputs, ()) {
     const RectangleLight<double> wide = random_rectangle();
-    const RectangleLight<float> light{Vec3<float>(wide.centre), Vec3<float>(wide.half_x), Vec3<float>(wide.half_y),
-                                      wide.emission};
+    const RectangleLight<float> light{Vec3<float>(wide.centre), Vec3<float>(wide.half_x),
+                                      Vec3<float>(wide.half_y), wide.emission};
     const Vec3<float> n(*direction());
     const double exact = projected_solid_angle(in_double(light), Vec(0), Vec(n));
-    RC_ASSERT(std::abs(projected_solid_angle(light, Vec3<float>(0), n) - exact) <= 1e-6 * solid_angle(wide, Vec(0)));
+    RC_ASSERT(std::abs(projected_solid_angle(light, Vec3<float>(0), n) - exact) <=
+              1e-6 * solid_angle(wide, Vec(0)));
 }
 
 TEST(RectangleLight, ShinesFromItsFrontOrBoth) {
     RectangleLight<double> light = kUnitSquare;
     EXPECT_GT(projected_solid_angle(light, Vec(0, 0, 1), Vec(0, 0, -1)), 0.2);
-    for (const auto& one : {projected_solid_angle(light, Vec(0, 0, -1), Vec(0, 0, 1)),
-                            projected_solid_angle_structured(light, Vec(0, 0, -1), Vec(0, 0, 1)),
-                            projected_solid_angle_mrp(light, Vec(0, 0, -1), Vec(0, 0, 1)), solid_angle(light, Vec(0, 0, -1))})
+    for (const auto& one :
+         {projected_solid_angle(light, Vec(0, 0, -1), Vec(0, 0, 1)),
+          projected_solid_angle_structured(light, Vec(0, 0, -1), Vec(0, 0, 1)),
+          projected_solid_angle_mrp(light, Vec(0, 0, -1), Vec(0, 0, 1)), solid_angle(light, Vec(0, 0, -1))})
         EXPECT_EQ(one, 0);
     light.emission = Emission::two_sided;
     EXPECT_EQ(projected_solid_angle(light, Vec(0, 0, -1), Vec(0, 0, 1)),
@@ -114,7 +121,8 @@ TEST(RectangleLight, IsContinuousAcrossTheHorizon) {
     double before = projected_solid_angle(kUnitSquare, Vec(0, 0, 1), Vec(1, 0, 0));
     for (int i = 1; i <= 18000; ++i) {
         const double turn = radians(i * 0.01);
-        const double E = projected_solid_angle(kUnitSquare, Vec(0, 0, 1), Vec(std::cos(turn), 0, std::sin(turn)));
+        const double E =
+            projected_solid_angle(kUnitSquare, Vec(0, 0, 1), Vec(std::cos(turn), 0, std::sin(turn)));
         ASSERT_NEAR(E, before, 1.5e-4) << i;
         before = E;
     }
@@ -129,7 +137,9 @@ double head_on_error(double distance) {
 }
 
 TEST(RectangleLight, StructuredSamplingErrsAsStated) {
-    const auto structured = [](const Vec& p, const Vec& n) { return projected_solid_angle_structured(kUnitSquare, p, n); };
+    const auto structured = [](const Vec& p, const Vec& n) {
+        return projected_solid_angle_structured(kUnitSquare, p, n);
+    };
     EXPECT_NEAR(head_on_error(0.1), -0.470, 5e-4);
     EXPECT_NEAR(head_on_error(0.5), -0.204, 5e-4);
     EXPECT_NEAR(head_on_error(1), -0.0865, 5e-5);

@@ -31,20 +31,22 @@ RC_GTEST_PROP(SphericalRectangle, SampleAndInverseAreARoundTrip, ()) {
 }
 
 TEST(SphericalRectangle, SamplesFollowTheirDensity) {
-    // Cells are those of a 16 x 16 grid on the light. Their probability is the density's integral over each, by the
-    // area form, which shares nothing with the sampler.
+    // Cells are those of a 16 x 16 grid on the light. Their probability is the density's integral over each,
+    // by the area form, which shares nothing with the sampler.
     const RectangleLight<double> lights[] = {
-        {{0, 0, 1}, {1, 0, 0}, {0, 0.5, 0}, Emission::two_sided},        // head-on
-        {{2, -1, 0.3}, {1, 0, 0}, {0, 1.5, 0}, Emission::two_sided},     // aslant
-        {{0, 0, 1e-2}, {1, 0, 0}, {0, 1, 0}, Emission::two_sided},       // nearly touching
-        {{0, 0, 1e3}, {0.03, 0, 0}, {0, 0.01, 0}, Emission::two_sided}}; // below the smallest: by area
+        {{0, 0, 1}, {1, 0, 0}, {0, 0.5, 0}, Emission::two_sided},         // head-on
+        {{2, -1, 0.3}, {1, 0, 0}, {0, 1.5, 0}, Emission::two_sided},      // aslant
+        {{0, 0, 1e-2}, {1, 0, 0}, {0, 1, 0}, Emission::two_sided},        // nearly touching
+        {{0, 0, 1e3}, {0.03, 0, 0}, {0, 0.01, 0}, Emission::two_sided}};  // below the smallest: by area
     constexpr int kSide = 16, kCount = 100'000;
     const QuadratureRule rule = gauss_legendre(16);
     for (const RectangleLight<double>& light : lights) {
         const SphericalRectangle seen(light, Vec(0));
         std::vector<double> observed(kSide * kSide), expected(kSide * kSide);
         const Vec normal = front_normal(light);
-        const auto cell = [&](double x) { return std::clamp(static_cast<int>((x + 1) / 2 * kSide), 0, kSide - 1); };
+        const auto cell = [&](double x) {
+            return std::clamp(static_cast<int>((x + 1) / 2 * kSide), 0, kSide - 1);
+        };
         for (int i = 0; i < kCount; ++i) {
             const Vec wi = seen.sample(random_unit(3, i, 0), random_unit(3, i, 1));
             const Vec x = wi * (glm::dot(light.centre, normal) / glm::dot(wi, normal)) - light.centre;

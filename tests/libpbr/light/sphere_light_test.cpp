@@ -14,15 +14,16 @@ constexpr double kUlp = std::numeric_limits<double>::epsilon();
 
 TEST(ProjectedSolidAngleCap, MatchesFiguresAtHalfAngle30) {
     // Angle of the centre from the normal, deg, and E/L from independent integration.
-    const std::pair<double, double> figures[] = {{0, .78539816}, {80, .171832},   {90, .090586},
-                                                 {100, .035449}, {115, .00124003}, {120, 0}, {150, 0}};
+    const std::pair<double, double> figures[] = {
+        {0, .78539816}, {80, .171832}, {90, .090586}, {100, .035449}, {115, .00124003}, {120, 0}, {150, 0}};
     for (const auto& [w, expected] : figures)
         EXPECT_NEAR(projected_solid_angle_cap(std::cos(radians(w)), 0.25), expected, 6e-7) << w;
 }
 
 TEST(ProjectedSolidAngleCap, KeepsItsDigitsForSmallCapsAcrossTheHorizon) {
-    // A small cap is a flat disk of radius s at height t s over the horizon: the integral of y + t over its part
-    // above is s^3 ((2/3)(1-t^2)^1.5 + t (pi/2 + asin t + t sqrt(1-t^2))), with relative error about s^2.
+    // A small cap is a flat disk of radius s at height t s over the horizon: the integral of y + t over its
+    // part above is s^3 ((2/3)(1-t^2)^1.5 + t (pi/2 + asin t + t sqrt(1-t^2))), with relative error about
+    // s^2.
     const double s = 1e-6;
     for (const double t : {-0.9, -0.5, 0.0, 0.3, 0.99}) {
         const double w = std::sqrt(1 - t * t);
@@ -78,19 +79,21 @@ TEST(AtanMinusArgument, KeepsItsDigits) {
 TEST(SphereLight, AgreesWithTheIntegralOverItsSurface) {
     const SphereLight<double> light{{1, 0.2, 0.3}, 0.7};
     for (const Vec& n : {Vec(0, 0, 1), Vec(-0.6, 0, 0.8), Vec(0, 0, -1)})
-        EXPECT_NEAR(projected_solid_angle(light, Vec(0), n), reference_projected_solid_angle(light, Vec(0), n), 1e-6);
+        EXPECT_NEAR(projected_solid_angle(light, Vec(0), n),
+                    reference_projected_solid_angle(light, Vec(0), n), 1e-6);
     EXPECT_NEAR(solid_angle(light, Vec(0)), reference_solid_angle(light, Vec(0)), 1e-9);
 }
 
 RC_GTEST_PROP(SphereLight, EqualsTheDiskThatFillsItsOutline, ()) {
-    // The tangent cone touches the sphere in a circle; the disk in that circle looks the same, and is integrated along
-    // its rim, by other code.
+    // The tangent cone touches the sphere in a circle; the disk in that circle looks the same, and is
+    // integrated along its rim, by other code.
     const Vec direction_to = *direction(), n = *direction();
     const double s = std::asin(*uniform(0.01, 0.99)), distance = *log_uniform(0.1, 1e3);
     const SphereLight<double> sphere{distance * direction_to, distance * std::sin(s)};
     const DiskLight<double> disk{distance * std::cos(s) * std::cos(s) * direction_to, -direction_to,
                                  distance * std::sin(s) * std::cos(s)};
-    RC_ASSERT(std::abs(projected_solid_angle(sphere, Vec(0), n) - projected_solid_angle(disk, Vec(0), n)) < 1e-13);
+    RC_ASSERT(std::abs(projected_solid_angle(sphere, Vec(0), n) - projected_solid_angle(disk, Vec(0), n)) <
+              1e-13);
     RC_ASSERT(std::abs(solid_angle(sphere, Vec(0)) - solid_angle(disk, Vec(0))) < 1e-12);
 }
 
@@ -129,9 +132,12 @@ TEST(SphereLight, FarAwayIsAPoint) {
 TEST(SphereLight, FrostbitesClampsCostAsStated) {
     const SphereLight<double> light{Vec(0), 0.5};
     const auto exact = [&](const Vec& p, const Vec& n) { return projected_solid_angle(light, p, n); };
-    const auto clamped = [&](const Vec& p, const Vec& n) { return projected_solid_angle_frostbite(light, p, n); };
+    const auto clamped = [&](const Vec& p, const Vec& n) {
+        return projected_solid_angle_frostbite(light, p, n);
+    };
     for (const double distance : {0.75, 1.0, 2.0, 4.0}) {
-        const double worst = worst_error(distance, clamped, exact, [&](const Vec& p) { return solid_angle(light, p); });
+        const double worst =
+            worst_error(distance, clamped, exact, [&](const Vec& p) { return solid_angle(light, p); });
         EXPECT_LT(worst, 1.0e-3);
         EXPECT_GT(worst, 0.8e-3);
     }
@@ -150,6 +156,15 @@ RC_GTEST_PROP(SphereLight, SampleAndInverseAreARoundTrip, ()) {
     RC_ASSERT(std::abs(back.u1 - u1) < 1e-15 / s * 30);
     RC_ASSERT(std::abs(std::remainder(back.u2 - u2, 1.0)) < 1e-14 / s);
     RC_ASSERT(std::abs(pdf_solid_angle(light, Vec(0), wi) * solid_angle(light, Vec(0)) - 1) < 1e-12);
+}
+
+RC_GTEST_PROP(SphereLight, FloatSamplesHaveADensity, ()) {
+    const Vec3<float> centre(10.0 * *direction());
+    const SphereLight<float> light{centre, static_cast<float>(*log_uniform(1e-2, 9))};
+    const Vec3<float> wi = sample_sphere_light(light, Vec3<float>(0), static_cast<float>(*unit_interval()),
+                                               static_cast<float>(*unit_interval()));
+    RC_ASSERT(std::abs(glm::length(wi) - 1) < 1e-6f);
+    RC_ASSERT(pdf_solid_angle(light, Vec3<float>(0), wi) > 0);
 }
 
 TEST(SphereLight, SamplesFollowTheirDensity) {

@@ -39,9 +39,9 @@ inline double pearson_p_value(const std::vector<double>& observed, const std::ve
     return boost::math::cdf(complement(boost::math::chi_squared(cells - 1), statistic));
 }
 
-/// p-value of samples against a density over a grid of z x azimuth on the sphere from z = `z_min` (0: the upper
-/// hemisphere, -1: all of it) to 1. `sample(u1, u2)` gives a unit vector, `pdf(direction)` its density per
-/// steradian. A sample below z_min fails the test that calls.
+/// p-value of samples against a density over a grid of z x azimuth on the sphere from z = `z_min` (0: the
+/// upper hemisphere, -1: all of it) to 1. `sample(u1, u2)` gives a unit vector, `pdf(direction)` its density
+/// per steradian. A sample below z_min fails the test that calls.
 template <class Sample, class Pdf>
 double chi_square_p_value(const Sample& sample, const Pdf& pdf, double z_min = 0) {
     constexpr int kRings = 16, kSectors = 16, kCount = 200'000, kSub = 24;
@@ -56,7 +56,8 @@ double chi_square_p_value(const Sample& sample, const Pdf& pdf, double z_min = 0
         }
         const double turns = std::atan2(w.y, w.x) / (2 * std::numbers::pi);
         const int ring = std::clamp(static_cast<int>((w.z - z_min) / span * kRings), 0, kRings - 1);
-        const int sector = std::clamp(static_cast<int>((turns - std::floor(turns)) * kSectors), 0, kSectors - 1);
+        const int sector =
+            std::clamp(static_cast<int>((turns - std::floor(turns)) * kSectors), 0, kSectors - 1);
         observed[ring * kSectors + sector] += 1;
     }
     EXPECT_EQ(outside, 0);

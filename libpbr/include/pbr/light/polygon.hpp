@@ -12,24 +12,26 @@
 
 namespace pbr {
 
-/// Signed solid angle, sr, in (-2 pi, 2 pi), of triangle a b c seen from p (van Oosterom & Strackee 1983, "The solid
-/// angle of a plane triangle", eq. 8): tan(Omega/2) = det(a, b, c) / (abc + (a.b)c + (b.c)a + (c.a)b). The
-/// determinant is taken of edges, so that small triangles keep their digits: relative error below 50 eps / (smallest
-/// of the triangle's extent and its height, as angles). 0 in the triangle's plane, in it too, and for no area.
+/// Signed solid angle, sr, in (-2 pi, 2 pi), of triangle a b c seen from p (van Oosterom & Strackee 1983,
+/// "The solid angle of a plane triangle", eq. 8): tan(Omega/2) = det(a, b, c) / (abc + (a.b)c + (b.c)a +
+/// (c.a)b). The determinant is taken of edges, so that small triangles keep their digits: relative error
+/// below 50 eps / (smallest of the triangle's extent and its height, as angles). 0 in the triangle's plane,
+/// in it too, and for no area.
 template <class T>
 T solid_angle_triangle(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c, const Vec3<T>& p) {
     const Vec3<T> ra = a - p, rb = b - p, rc = c - p;
     const T la = glm::length(ra), lb = glm::length(rb), lc = glm::length(rc);
     const T determinant = -glm::dot(ra, glm::cross(b - a, c - a));
     if (determinant == T(0)) return T(0);
-    const T denominator = la * lb * lc + glm::dot(ra, rb) * lc + glm::dot(rb, rc) * la + glm::dot(rc, ra) * lb;
+    const T denominator =
+        la * lb * lc + glm::dot(ra, rb) * lc + glm::dot(rb, rc) * la + glm::dot(rc, ra) * lb;
     return T(2) * std::atan2(determinant, denominator);
 }
 
-/// Half the signed projected solid angle between two edge vectors, sr: n.(a x b)/|a x b| times the angle from a to b,
-/// halved. One term of Lambert's sum (Baum et al. 1989, "Improving radiosity solutions through the use of
-/// analytically determined form-factors", eq. 11). a, b any length; parallel, opposite or zero vectors give 0, which
-/// is the limit but for opposite ones: then p is on the edge and the direction of a x b is undefined.
+/// Half the signed projected solid angle between two edge vectors, sr: n.(a x b)/|a x b| times the angle from
+/// a to b, halved. One term of Lambert's sum (Baum et al. 1989, "Improving radiosity solutions through the
+/// use of analytically determined form-factors"). a, b any length; parallel, opposite or zero vectors give 0,
+/// which is the limit but for opposite ones: then p is on the edge and the direction of a x b is undefined.
 template <class T>
 T lambert_edge(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& n) {
     const Vec3<T> normal = glm::cross(a, b - a);  // = a x b, with fewer digits lost where a and b are close
@@ -37,8 +39,8 @@ T lambert_edge(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& n) {
     return sine > T(0) ? T(0.5) * glm::dot(n, normal) / sine * std::atan2(sine, glm::dot(a, b)) : T(0);
 }
 
-/// The integral over triangle a b c, relative to p, of (n.x)(x.dA)/|x|^4, by Radon's seven-point rule of degree 5
-/// (Abramowitz & Stegun 1964, 25.4.63 d). Relative error about the 6th power of extent / distance.
+/// The integral over triangle a b c, relative to p, of (n.x)(x.dA)/|x|^4, by Radon's seven-point rule of
+/// degree 5 (Abramowitz & Stegun 1964, 25.4.63). Relative error about the 6th power of extent / distance.
 template <class T>
 T lambert_triangle_gauss(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c, const Vec3<T>& n) {
     const Vec3<T> area = T(0.5) * glm::cross(b - a, c - a);
@@ -49,22 +51,27 @@ T lambert_triangle_gauss(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c, c
     };
     const T root = std::sqrt(T(15));
     const T third = T(1) / T(3);
-    const auto ring = [&](T w) { return at(w, w, T(1) - 2 * w) + at(w, T(1) - 2 * w, w) + at(T(1) - 2 * w, w, w); };
+    const auto ring = [&](T w) {
+        return at(w, w, T(1) - 2 * w) + at(w, T(1) - 2 * w, w) + at(T(1) - 2 * w, w, w);
+    };
     return T(0.225) * at(third, third, third) + (T(155) - root) / T(1200) * ring((T(6) - root) / T(21)) +
            (T(155) + root) / T(1200) * ring((T(6) + root) / T(21));
 }
 
-/// Below this extent / nearest vertex the projected solid angle of a polygon is a cubature over its area, above it a
-/// sum over edges. The sum loses digits like eps / extent, and the cubature's 3e-2^6 is below 1e-9.
+/// Below this extent / nearest vertex the projected solid angle of a polygon is a cubature over its area,
+/// above it a sum over edges. The sum loses digits like eps / extent, and the cubature's error, 0.03^6, is
+/// below 1e-9.
 constexpr double kSmallPolygonExtent = 0.03;
 
-/// Walks a polygon's vertices relative to p, clipped to the horizon, and sums. See projected_solid_angle_polygon.
+/// Walks a polygon's vertices relative to p, clipped to the horizon, and sums. See
+/// projected_solid_angle_polygon.
 template <class T>
 class HorizonClippedSum {
   public:
+    /// n is the receiver's unit normal; small: by cubature of triangles, else by edges.
     HorizonClippedSum(const Vec3<T>& n, bool small) : n_(n), small_(small) {}
 
-    /// The next vertex; heights are n.vertex. `from` is the one before.
+    /// The side from one vertex to the next, relative to p.
     void edge(const Vec3<T>& from, const Vec3<T>& to) {
         const T h0 = glm::dot(n_, from), h1 = glm::dot(n_, to);
         if ((h0 > T(0)) != (h1 > T(0))) add(from + (to - from) * (h0 / (h0 - h1)));
@@ -75,6 +82,7 @@ class HorizonClippedSum {
     T total() const { return count_ < 3 ? T(0) : small_ ? -sum_ : -(sum_ + lambert_edge(last_, first_, n_)); }
 
   private:
+    /// A vertex of the clipped polygon.
     void add(const Vec3<T>& v) {
         if (count_ == 0)
             first_ = v;
@@ -93,11 +101,12 @@ class HorizonClippedSum {
     T sum_ = T(0);
 };
 
-/// Exact signed projected solid angle, sr, of a planar simple polygon, convex or not, at p with unit normal n, the part
-/// below the horizon clipped (Lambert 1760; Baum et al. 1989, eq. 11). In [-pi, pi]. 0 for fewer than three vertices,
-/// no area, and at points of the polygon's plane outside it; a point *on* the polygon is not meaningful. Absolute error
-/// below 20 eps x (extent of the polygon, rad); double within 2e-9 and float within 2e-5 of its largest value at this
-/// place whatever its size, as small polygons are integrated over their area.
+/// Exact signed projected solid angle, sr, of a planar simple polygon, convex or not, at p with unit normal
+/// n, the part below the horizon clipped (Lambert 1760; Baum et al. 1989). In [-pi, pi]. 0 for fewer than
+/// three vertices, no area, and at points of the polygon's plane outside it; a point *on* the polygon is not
+/// meaningful. Absolute error below 20 eps x (extent of the polygon, rad); double within 2e-9 and float
+/// within 2e-5 of its largest value at this place whatever its size, as small polygons are integrated over
+/// their area.
 template <class T>
 T projected_solid_angle_polygon(std::span<const Vec3<T>> vertices, const Vec3<T>& p, const Vec3<T>& n) {
     if (vertices.size() < 3) return T(0);
