@@ -106,7 +106,7 @@ RC_GTEST_PROP(Polygon, IsBoundedReversibleAndIndependentOfTheFirstVertex, ()) {
 }
 
 RC_GTEST_PROP(Polygon, RuleAndSumMeetAtTheSwitch, ()) {
-    // Two sizes that differ by 1e-9 on either side of the switch: the relative step is the cubature's error.
+    // Two sizes next to each other on either side of the switch: their difference is the cubature's error.
     const Vec towards = *direction(), axis = *direction();
     const double cosine = *uniform(0.05, 1);
     const auto [a, b] = plane_of(towards);
