@@ -11,11 +11,15 @@
 #include <vector>
 
 #include "pbr/ibl/cubemap.hpp"
+#include "pbr/light/disk_light.hpp"
 #include "pbr/light/emissive.hpp"
 #include "pbr/light/luminous_efficacy.hpp"
 #include "pbr/light/punctual.hpp"
+#include "pbr/light/rectangle_light.hpp"
 #include "pbr/light/solid_angle.hpp"
+#include "pbr/light/sphere_light.hpp"
 #include "pbr/light/sun.hpp"
+#include "pbr/light/tube_light.hpp"
 #include "pbr/light/unit_conversions.hpp"
 #include "tests/libpbr/support/integrate.hpp"
 
@@ -107,6 +111,11 @@ double surface_lux(Nits<double> L, const auto& surface) {
     return L.value() * lux_of_surface(surface, Vec(0), kUp, 800);
 }
 
+/// An area light by its closed form.
+double area_light_lux(Candelas<double> I, const Emitter<double>& emitter, const auto& light) {
+    return luminance_from_intensity(I, emitter).value() * projected_solid_angle(light, Vec(0), kUp);
+}
+
 /// The sun stated by its luminance: integrated over the directions of its disk, in its own frame.
 double sky_disk_lux(Nits<double> L, double half_angle) {
     const Vec u(0, 1, 0), v = glm::cross(kToLight, u);
@@ -159,6 +168,8 @@ std::vector<Statement> statements() {
     const auto on_rectangle = rectangle_surface(kFrame, .2, .1);
     const auto on_tube = tube_surface(kFrame, .02, .2);
 
+    const RectangleLight<double> rectangle_light{kPlace, .1 * kFrame.along, .05 * kFrame.across()};
+
     // The rectangle again, as the two triangles of an emissive mesh.
     const Vec a(0, 0, 0), b(.2, 0, 0), c(.2, .1, 0), d(0, .1, 0);
     const double mesh_area = triangle_area(a, b, c) + triangle_area(a, c, d);
@@ -194,6 +205,12 @@ std::vector<Statement> statements() {
         {"emissive, exitance",
          surface_lux(luminance_from_exitance(exitance_from_luminance(luminance_from_intensity(I, disk))),
                      on_disk)},
+        {"sphere light", area_light_lux(I, sphere, SphereLight<double>{kPlace, kSize_m})},
+        {"disk light", area_light_lux(I, disk, DiskLight<double>{kPlace, -kToLight, kSize_m})},
+        {"rectangle light", area_light_lux(I, rectangle, rectangle_light)},
+        {"tube light",
+         area_light_lux(I, tube,
+                        TubeLight<double>{kPlace - .1 * kFrame.along, kPlace + .1 * kFrame.along, .02})},
         {"sun, lx", kFacingLux.value() * glm::dot(kToLight, kUp)},
         {"sun, nit", sky_disk_lux(disk_luminance_from_illuminance(kFacingLux, sun), sun)},
         {"environment, texel at a face's middle", environment_lux(1024, {2, 511, 512})},
