@@ -45,7 +45,7 @@ constexpr T clear_coat_transmission(T NoL, T NoV, T strength) {
     return (T(1) - F_clear_coat(NoL, strength)) * (T(1) - F_clear_coat(NoV, strength));
 }
 
-/// The same as Filament has it, 1 - F(LoH) (Filament, "Physically based rendering in Filament", 4.9.3). Known to be poor: near
+/// The same as Filament has it, 1 - F(LoH) (Filament, "Physically based rendering in Filament", the section on clear coat). Known to be poor: near
 /// grazing view a sharp coat reflects all and yet leaves nearly all to the base; over white the whole reaches 1.7. cosine and
 /// strength in [0, 1]: 1 at strength 0, 0 at LoH = 0 and strength 1.
 template <class T>
@@ -55,7 +55,7 @@ constexpr T clear_coat_transmission_filament(T LoH, T strength) {
 
 /// f0 of a base that lies under the coat instead of air: ((sqrt f0 - sqrt fc) / (1 - sqrt f0 sqrt fc))^2, fc = f0 of the coat
 /// against air. Follows from f0_from_ior by writing out the ratio of indices; with fc = .04 it's Filament's (1 - 5 sqrt
-/// f0)^2 / (5 - sqrt f0)^2 (Filament, 4.9.5). f0 in [0, 1]: fc at 0, 0 at f0 = fc, 1 at 1. Absolute error below 4 ulp of 1.
+/// f0)^2 / (5 - sqrt f0)^2 (same source). f0 in [0, 1]: fc at 0, 0 at f0 = fc, 1 at 1. Absolute error below 4 ulp of 1.
 /// Real for dielectrics; for metals the same is done by convention.
 template <class T>
 T f0_under_clear_coat(T f0, T coat_f0 = kClearCoatF0<T>) {

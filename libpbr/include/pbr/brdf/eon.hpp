@@ -14,16 +14,16 @@
 namespace pbr {
 
 /// What a white FON surface loses, relative to its roughness: directional albedo E(NoV) = 1 - r A (C1 - g(NoV)) with r =
-/// diffuse_roughness, A = 1 / (1 + C1 r), C1 = 1/2 - 2/(3 pi) (eq. 24). Writing the loss instead of E keeps r -> 0 exact,
+/// diffuse_roughness, A = 1 / (1 + C1 r), C1 = 1/2 - 2/(3 pi) (listing 1). Writing the loss instead of E keeps r -> 0 exact,
 /// where the model itself is 0/0.
 template <class T>
 inline constexpr T kEonC1 = T(0.5) - T(2) / (T(3) * std::numbers::pi_v<T>);
 
-/// The mean of g over a Lambertian hemisphere: 2/3 - 28/(15 pi) (eq. 25).
+/// The mean of g over a Lambertian hemisphere: 2/3 - 28/(15 pi) (listing 1).
 template <class T>
 inline constexpr T kEonC2 = T(2) / T(3) - T(28) / (T(15) * std::numbers::pi_v<T>);
 
-/// g(cosine) of the exact albedo, G / pi with G = s (acos c - s c) + 2/3 ((s/c)(1 - s^3) - s) (eq. 9; the quotient here
+/// g(cosine) of the exact albedo, G / pi with G = s (acos c - s c) + 2/3 ((s/c)(1 - s^3) - s) (listing 1; the quotient here
 /// written without its 0/0 at c = 0). cosine in [0, 1]: C1 at 0, 0 at 1. Absolute error below 4 ulp of 1.
 template <class T>
 T eon_g_exact(T cosine) {
@@ -42,14 +42,14 @@ constexpr T eon_g_approximate(T cosine) {
     return m * (T(0.0571085289) + m * (T(0.491881867) + m * (T(-0.332181442) + m * T(0.0714429953))));
 }
 
-/// Directional albedo of white FON, the single-scattering part: E = (1 + r g) / (1 + C1 r) (eq. 8). g from eon_g_exact or
+/// Directional albedo of white FON, the single-scattering part: E = (1 + r g) / (1 + C1 r) (listing 1). g from eon_g_exact or
 /// eon_g_approximate, diffuse_roughness in [0, 1]. 1 at roughness 0. Relative error below 4 ulp beside g's.
 template <class T>
 constexpr T albedo_fon(T g, T diffuse_roughness) {
     return (T(1) + diffuse_roughness * g) / (T(1) + kEonC1<T> * diffuse_roughness);
 }
 
-/// EON with the albedo's g given for both directions, which is all that separates exact from approximate (eq. 17-21).
+/// EON with the albedo's g given for both directions, which is all that separates exact from approximate (listing 1).
 /// Domain and edges as f_eon.
 template <class Colour, class T>
 Colour f_eon_from_g(const Colour& rho, T diffuse_roughness, T NoL, T NoV, T LoV, T g_l, T g_v) {

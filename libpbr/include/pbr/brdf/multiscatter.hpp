@@ -20,7 +20,7 @@ namespace pbr {
 /// Reflectances in [0, 1]. Exact to 2 roundings.
 template <class Colour>
 constexpr Colour average_schlick(const Colour& f0, const Colour& f90) {
-    return f0 + (f90 - f0) / 21;
+    return f0 + (f90 - f0) / Colour(21);
 }
 
 /// Kulla-Conty's lobe for facets that absorb nothing, (1 - E_o)(1 - E_i) / (pi (1 - E_avg)), 1/sr; 1/pi is inside (Kulla & Conty
@@ -42,7 +42,7 @@ constexpr Colour multiscatter_colour(const Colour& F_avg, T E_avg) {
 }
 
 /// Turquin's factor on the single-scattering lobe, 1 + f0 (1 - E) / E, E of wo (Turquin 2019, "Practical multiple scattering
-/// compensation for microfacet models", eq. 16). f0 in [0, 1], E in (0, 1]: at least 1; the albedo of f0 = 1 becomes 1. GGX
+/// compensation for microfacet models"). f0 in [0, 1], E in (0, 1]: at least 1; the albedo of f0 = 1 becomes 1. GGX
 /// has E > .30 everywhere. Not reciprocal, as it sees wo alone.
 template <class Colour, class T>
 constexpr Colour multiscatter_factor_turquin(const Colour& f0, T E_o) {
@@ -50,7 +50,7 @@ constexpr Colour multiscatter_factor_turquin(const Colour& f0, T E_o) {
 }
 
 /// Fdez-Aguera's albedo of single and multiple scattering (Fdez-Aguera 2019, "A multiple-scattering microfacet model for
-/// real-time image-based lighting", JCGT 8(1), eq. 13-19). `single` multiplies prefiltered radiance, `multiple` irradiance /
+/// real-time image-based lighting", JCGT 8(1)). `single` multiplies prefiltered radiance, `multiple` irradiance /
 /// pi; what a diffuse base may return is its colour times (1 - single - multiple).
 template <class Colour>
 struct MultiscatterAlbedo {
