@@ -1,5 +1,5 @@
-// What a material costs: an evaluation of f in float, bare and with one effect; and the functions behind. Inputs are many
-// random pairs of directions, so that nothing is predicted or folded.
+// What a material costs: an evaluation of f in float, bare and with one effect; and the functions behind.
+// Inputs are many random pairs of directions, so that nothing is predicted or folded.
 
 #include <benchmark/benchmark.h>
 
@@ -29,7 +29,8 @@ Vec3<float> direction(std::uint64_t stream, std::uint64_t i) {
 const std::vector<Reflection<float>>& reflections() {
     static const std::vector<Reflection<float>> all = [] {
         std::vector<Reflection<float>> r;
-        for (std::uint64_t i = 0; i < kPairs; ++i) r.push_back(pbr::reflection(direction(1, i), direction(3, i)));
+        for (std::uint64_t i = 0; i < kPairs; ++i)
+            r.push_back(pbr::reflection(direction(1, i), direction(3, i)));
         return r;
     }();
     return all;
@@ -96,7 +97,9 @@ BENCHMARK(BareLobes);
 void MaterialStandard(benchmark::State& state) { evaluate(state, Material<float>(kPaint)); }
 BENCHMARK(MaterialStandard);
 
-void MaterialClearCoat(benchmark::State& state) { evaluate(state, Material(kPaint, pbr::ClearCoat<float>{1, .01f})); }
+void MaterialClearCoat(benchmark::State& state) {
+    evaluate(state, Material(kPaint, pbr::ClearCoat<float>{1, .01f}));
+}
 BENCHMARK(MaterialClearCoat);
 
 void MaterialCloth(benchmark::State& state) {
@@ -104,7 +107,9 @@ void MaterialCloth(benchmark::State& state) {
 }
 BENCHMARK(MaterialCloth);
 
-void MaterialAnisotropy(benchmark::State& state) { evaluate(state, Material(kPaint, pbr::Anisotropy<float>{.6f})); }
+void MaterialAnisotropy(benchmark::State& state) {
+    evaluate(state, Material(kPaint, pbr::Anisotropy<float>{.6f}));
+}
 BENCHMARK(MaterialAnisotropy);
 
 void MaterialEnergyCompensation(benchmark::State& state) {
@@ -136,29 +141,34 @@ void DiffuseLambert(benchmark::State& state) {
 BENCHMARK(DiffuseLambert);
 
 void DiffuseDisney(benchmark::State& state) {
-    each_reflection(state, [](const Reflection<float>& r) { return pbr::f_disney_diffuse(r.NoL, r.NoV, r.LoH, .5f); });
+    each_reflection(
+        state, [](const Reflection<float>& r) { return pbr::f_disney_diffuse(r.NoL, r.NoV, r.LoH, .5f); });
 }
 BENCHMARK(DiffuseDisney);
 
 void DiffuseEon(benchmark::State& state) {
-    each_reflection(state, [](const Reflection<float>& r) { return pbr::f_eon(.5f, .5f, r.NoL, r.NoV, r.LoV); });
+    each_reflection(state,
+                    [](const Reflection<float>& r) { return pbr::f_eon(.5f, .5f, r.NoL, r.NoV, r.LoV); });
 }
 BENCHMARK(DiffuseEon);
 
 void DiffuseEonApproximate(benchmark::State& state) {
-    each_reflection(state,
-                    [](const Reflection<float>& r) { return pbr::f_eon_approximate(.5f, .5f, r.NoL, r.NoV, r.LoV); });
+    each_reflection(state, [](const Reflection<float>& r) {
+        return pbr::f_eon_approximate(.5f, .5f, r.NoL, r.NoV, r.LoV);
+    });
 }
 BENCHMARK(DiffuseEonApproximate);
 
 void DiffuseChan(benchmark::State& state) {
-    each_reflection(state, [](const Reflection<float>& r) { return pbr::f_chan(r.NoL, r.NoV, r.NoH, r.LoH, .25f); });
+    each_reflection(state,
+                    [](const Reflection<float>& r) { return pbr::f_chan(r.NoL, r.NoV, r.NoH, r.LoH, .25f); });
 }
 BENCHMARK(DiffuseChan);
 
 void DiffuseHammon(benchmark::State& state) {
-    each_reflection(state,
-                    [](const Reflection<float>& r) { return pbr::f_hammon(.5f, r.NoL, r.NoV, r.NoH, r.LoV, .25f); });
+    each_reflection(state, [](const Reflection<float>& r) {
+        return pbr::f_hammon(.5f, r.NoL, r.NoV, r.NoH, r.LoV, .25f);
+    });
 }
 BENCHMARK(DiffuseHammon);
 
@@ -183,7 +193,8 @@ void BurleyRadius(benchmark::State& state) {
 BENCHMARK(BurleyRadius);
 
 void PreintegratedDiffusionTexel(benchmark::State& state) {
-    each_reflection(state, [](const Reflection<float>& r) { return pbr::preintegrated_diffusion(r.LoV, r.NoV); });
+    each_reflection(state,
+                    [](const Reflection<float>& r) { return pbr::preintegrated_diffusion(r.LoV, r.NoV); });
 }
 BENCHMARK(PreintegratedDiffusionTexel)->Unit(benchmark::kMicrosecond);
 

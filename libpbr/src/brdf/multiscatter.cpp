@@ -10,8 +10,8 @@ namespace pbr {
 
 double average_albedo_ggx(double alpha) {
     if (alpha <= 0) return 1;
-    // E bends where mu is about alpha: one panel up to there, and one in the logarithm of mu from there on, which at alpha =
-    // 1 is empty.
+    // E bends where mu is about alpha: one panel up to there, and one in the logarithm of mu from there on,
+    // which at alpha = 1 is empty.
     static const QuadratureRule rule = gauss_legendre(24);
     static const DfgMethod method = DfgMethod::quadrature(1e-8);
     std::vector<double> mu, weight;

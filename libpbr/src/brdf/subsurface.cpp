@@ -7,8 +7,8 @@
 namespace pbr {
 namespace {
 
-/// Mean of max(0, cosine to the light) over the circle of points at angle theta from one whose normal has cosine NoL:
-/// cosines are a + b cos(phi).
+/// Mean of max(0, cosine to the light) over the circle of points at angle theta from one whose normal has
+/// cosine NoL: cosines are a + b cos(phi).
 double ring_irradiance(double NoL, double half_sine) {
     const double cosine = 1 - 2 * half_sine * half_sine;
     const double sine = 2 * half_sine * std::sqrt(std::max(0.0, 1 - half_sine * half_sine));
@@ -23,21 +23,15 @@ double ring_irradiance(double NoL, double half_sine) {
 
 double preintegrated_diffusion(double NoL, double curvature_d) {
     if (curvature_d <= 0) return std::max(NoL, 0.0);
-    // Chord lengths x in units of d. Panels end where a ring begins or ceases to cross the terminator, and by thirds in
-    // between, since the profile falls off exponentially.
+    // Chord lengths x in units of d. Panels end where a ring begins or ceases to cross the terminator, and by
+    // thirds in between, since the profile falls off exponentially.
     static const QuadratureRule rule = gauss_legendre(32);
     constexpr double kNothingBeyond = 130;  // e^(-130/3) < 2^-62
     const double diameter = 2 / curvature_d, end = std::min(diameter, kNothingBeyond);
     const double to_terminator = std::abs(std::numbers::pi / 2 - std::acos(std::clamp(NoL, -1.0, 1.0)));
-    std::array<double, 9> ends{0,
-                               diameter * std::sin(to_terminator / 2),
-                               diameter * std::cos(to_terminator / 2),
-                               1,
-                               4,
-                               10,
-                               25,
-                               60,
-                               end};
+    std::array<double, 9> ends{
+        0,  diameter * std::sin(to_terminator / 2), diameter * std::cos(to_terminator / 2), 1, 4, 10, 25, 60,
+        end};
     for (double& x : ends) x = std::min(x, end);
     std::sort(ends.begin(), ends.end());
     double sum = 0;

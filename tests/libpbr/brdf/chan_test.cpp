@@ -66,7 +66,8 @@ TEST(ChanDiffuse, IsContinuousAcrossItsClamps) {
     // Gloss at which 2.2 g - .5 leaves 0 and 1, and 73.2 g - 21.2 passes 8.9.
     for (const double gloss : {.5 / 2.2, 1.5 / 2.2, 30.1 / 73.2}) {
         const double alpha = std::sqrt(2 / (1 + std::exp2(18 * gloss)));
-        EXPECT_NEAR(f_chan(.3, .6, .8, .7, alpha * (1 + 1e-9)), f_chan(.3, .6, .8, .7, alpha * (1 - 1e-9)), 1e-7);
+        EXPECT_NEAR(f_chan(.3, .6, .8, .7, alpha * (1 + 1e-9)), f_chan(.3, .6, .8, .7, alpha * (1 - 1e-9)),
+                    1e-7);
     }
 }
 
@@ -75,8 +76,9 @@ TEST(ChanDiffuse, FloatIsWithinTheUlpStated) {
         const Reflection<float> r = as_float(sample_reflection(i));
         const Reflection<double> d = as_double(r);
         const float alpha = static_cast<float>(random_unit(1, i));
-        EXPECT_LT(
-            ulp_error_of(1, f_chan(r.NoL, r.NoV, r.NoH, r.LoH, alpha), f_chan<double>(d.NoL, d.NoV, d.NoH, d.LoH, alpha)), 16)
+        EXPECT_LT(ulp_error_of(1, f_chan(r.NoL, r.NoV, r.NoH, r.LoH, alpha),
+                               f_chan<double>(d.NoL, d.NoV, d.NoH, d.LoH, alpha)),
+                  16)
             << alpha;
     }
 }

@@ -18,8 +18,8 @@ TEST(ClearCoat, LobeHasTheAlbedoOfTheDfgTables) {
     for (const double alpha : {.1, .4, 1.0})
         for (const double NoV : {.1, .6, 1.0}) {
             const DirectionalAlbedo table = dfg_ggx(NoV, alpha, DfgMethod::quadrature(1e-8));
-            const double albedo =
-                reflection_albedo([&](const Reflection<double>& r) { return f_clear_coat(r, alpha, .7); }, NoV);
+            const double albedo = reflection_albedo(
+                [&](const Reflection<double>& r) { return f_clear_coat(r, alpha, .7); }, NoV);
             EXPECT_NEAR(albedo, .7 * (.04 * (table.E - table.Fc) + table.Fc), 1e-6) << alpha << ' ' << NoV;
         }
 }
@@ -29,7 +29,8 @@ TEST(ClearCoat, KelemensLobeConservesEnergyBelowTheTables) {
     for (const double alpha : {.1, .2, .3, .5, .7, 1.0})
         for (const double NoV : {0.0, .02, .1, .3, .5, 1.0}) {
             const double kelemen = reflection_albedo_fixed(
-                [&](const Reflection<double>& r) { return D_ggx(r.NoH, r.sin2, alpha) * V_kelemen(r.LoH); }, NoV);
+                [&](const Reflection<double>& r) { return D_ggx(r.NoH, r.sin2, alpha) * V_kelemen(r.LoH); },
+                NoV);
             EXPECT_LE(kelemen, 1 + 2e-4) << alpha << ' ' << NoV;
             below = std::max(below, dfg_ggx(NoV, alpha, DfgMethod::quadrature(1e-8)).E - kelemen);
         }
@@ -43,7 +44,8 @@ TEST(ClearCoat, OverWhiteReturnsAsMuchAsStated) {
         for (const double NoV : {.01, .05, .2, .5, 1.0}) {
             const double albedo = reflection_albedo_fixed(
                 [&](const Reflection<double>& r) {
-                    return f_clear_coat(r, alpha, 1.0) + f_lambert<double>() * clear_coat_transmission(r.NoL, r.NoV, 1.0);
+                    return f_clear_coat(r, alpha, 1.0) +
+                           f_lambert<double>() * clear_coat_transmission(r.NoL, r.NoV, 1.0);
                 },
                 NoV);
             least = std::min(least, albedo);
@@ -51,17 +53,19 @@ TEST(ClearCoat, OverWhiteReturnsAsMuchAsStated) {
         }
     EXPECT_NEAR(least, .122, 2e-3);
     EXPECT_LT(most, .93);
-    // A mirror coat in closed form: it reflects F(NoV); Lambert's albedo is what both ways let through, by F's mean 1/21.
+    // A mirror coat in closed form: it reflects F(NoV); Lambert's albedo is what both ways let through, by
+    // F's mean 1/21.
     for (const double NoV : {0.0, .02, .1, .3, 1.0}) {
         const double F = F_schlick(.04, 1.0, NoV), mean = .04 + .96 / 21;
         const double ours = F + (1 - F) * (1 - mean);
         EXPECT_GT(ours, .90);
         EXPECT_LE(ours, 1);
-        const double theirs = F + reflection_albedo_fixed(
-                                      [](const Reflection<double>& r) {
-                                          return f_lambert<double>() * clear_coat_transmission_filament(r.LoH, 1.0);
-                                      },
-                                      NoV);
+        const double theirs =
+            F + reflection_albedo_fixed(
+                    [](const Reflection<double>& r) {
+                        return f_lambert<double>() * clear_coat_transmission_filament(r.LoH, 1.0);
+                    },
+                    NoV);
         filament = std::max(filament, theirs);
     }
     EXPECT_GT(filament, 1.7);
@@ -91,7 +95,8 @@ TEST(ClearCoat, FloatIsWithinTheUlpStated) {
         const Reflection<float> r = as_float(sample_reflection(i));
         const Reflection<double> d = as_double(r);
         const float alpha = static_cast<float>(std::pow(random_unit(1, i), 3) + 1e-3),
-                    strength = static_cast<float>(random_unit(2, i)), f0 = static_cast<float>(random_unit(3, i));
+                    strength = static_cast<float>(random_unit(2, i)),
+                    f0 = static_cast<float>(random_unit(3, i));
         EXPECT_LT(ulp_error(f_clear_coat(r, alpha, strength), f_clear_coat<double>(d, alpha, strength)), 24);
         EXPECT_LT(ulp_error(F_clear_coat(r.LoH, strength), F_clear_coat<double>(d.LoH, strength)), 8);
         EXPECT_LT(ulp_error(V_kelemen(r.LoH), V_kelemen(d.LoH)), 2);

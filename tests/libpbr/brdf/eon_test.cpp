@@ -25,8 +25,9 @@ double f_fon(const Reflection<double>& r, double diffuse_roughness) {
 TEST(EonDiffuse, ExactAlbedoIsTheIntegralOfSingleScattering) {
     for (const double r : {.3, 1.0})
         for (const double NoV : {0.0, .2, .6, 1.0})
-            EXPECT_NEAR(albedo_fon(eon_g_exact(NoV), r),
-                        reflection_albedo([&](const Reflection<double>& w) { return f_fon(w, r); }, NoV, 1e-7), 1e-6)
+            EXPECT_NEAR(
+                albedo_fon(eon_g_exact(NoV), r),
+                reflection_albedo([&](const Reflection<double>& w) { return f_fon(w, r); }, NoV, 1e-7), 1e-6)
                 << r << ' ' << NoV;
 }
 
@@ -34,14 +35,15 @@ TEST(EonDiffuse, ConstantsAreTheIntegralsTheyStandFor) {
     // 1 - E = A r (C1 - g), so that C1 is g's value at grazing incidence plus what E lacks there: E(0) = 1.
     EXPECT_NEAR(eon_g_exact(0.0), kEonC1<double>, 1e-15);
     EXPECT_EQ(eon_g_exact(1.0), 0);
-    const double mean =
-        gauss_kronrod<double, 61>::integrate([](double mu) { return 2 * mu * eon_g_exact(mu); }, 0.0, 1.0, 12, 1e-13);
+    const double mean = gauss_kronrod<double, 61>::integrate(
+        [](double mu) { return 2 * mu * eon_g_exact(mu); }, 0.0, 1.0, 12, 1e-13);
     EXPECT_NEAR(mean, kEonC2<double>, 1e-11);
 }
 
 TEST(EonDiffuse, FittedAlbedoIsAsFarAsStated) {
     double g = 0, value = 0;
-    for (int i = 0; i <= 10'000; ++i) g = std::max(g, std::abs(eon_g_exact(i * 1e-4) - eon_g_approximate(i * 1e-4)));
+    for (int i = 0; i <= 10'000; ++i)
+        g = std::max(g, std::abs(eon_g_exact(i * 1e-4) - eon_g_approximate(i * 1e-4)));
     EXPECT_LT(g, 6.1e-4);
     EXPECT_GT(g, 5.9e-4);
     EXPECT_NEAR(eon_g_approximate(0.0), .28825, 1e-5);
@@ -56,7 +58,9 @@ TEST(EonDiffuse, FittedAlbedoIsAsFarAsStated) {
 TEST(EonDiffuse, WhiteSurfaceReturnsEverything) {
     for (const double r : {0.0, .4, 1.0})
         for (const double NoV : {0.0, .1, .5, 1.0}) {
-            const auto exact = [&](const Reflection<double>& w) { return f_eon(1.0, r, w.NoL, w.NoV, w.LoV); };
+            const auto exact = [&](const Reflection<double>& w) {
+                return f_eon(1.0, r, w.NoL, w.NoV, w.LoV);
+            };
             EXPECT_NEAR(reflection_albedo(exact, NoV), 1, 1e-6) << r << ' ' << NoV;
             const auto fitted = [&](const Reflection<double>& w) {
                 return f_eon_approximate(1.0, r, w.NoL, w.NoV, w.LoV);
@@ -101,10 +105,12 @@ TEST(EonDiffuse, FloatIsWithinTheUlpStated) {
     for (int i = 0; i < 100'000; ++i) {
         const Reflection<float> r = as_float(sample_reflection(i));
         const Reflection<double> d = as_double(r);
-        const float rho = static_cast<float>(random_unit(3, i)), rough = static_cast<float>(random_unit(4, i));
+        const float rho = static_cast<float>(random_unit(3, i)),
+                    rough = static_cast<float>(random_unit(4, i));
         EXPECT_LT(ulp_error_of(1, eon_g_exact(r.NoL), eon_g_exact(d.NoL)), 4);
         const double f = f_eon(static_cast<double>(rho), static_cast<double>(rough), d.NoL, d.NoV, d.LoV);
-        EXPECT_LT(ulp_error_of(std::max(1.0, f), f_eon(rho, rough, r.NoL, r.NoV, r.LoV), f), 32) << r.NoL << ' ' << r.NoV;
+        EXPECT_LT(ulp_error_of(std::max(1.0, f), f_eon(rho, rough, r.NoL, r.NoV, r.LoV), f), 32)
+            << r.NoL << ' ' << r.NoV;
     }
 }
 

@@ -62,19 +62,23 @@ TEST(Fresnel, BothWaysThroughADielectricReflectAlike) {
 TEST(Fresnel, ConductorAgreesWithComplexArithmeticAndDielectric) {
     for (int i = 0; i < 20'000; ++i) {
         const double cosine = random_unit(1, i), ior = .05 + 5 * random_unit(2, i), k = 8 * random_unit(3, i);
-        ASSERT_NEAR(F_conductor(cosine, ior, k), F_complex(cosine, {ior, k}), 1e-13) << cosine << ' ' << ior << ' ' << k;
+        ASSERT_NEAR(F_conductor(cosine, ior, k), F_complex(cosine, {ior, k}), 1e-13)
+            << cosine << ' ' << ior << ' ' << k;
         const double g2 = (ior - 1) * (ior + 1) + cosine * cosine;  // 0 at the critical angle
-        ASSERT_NEAR(F_conductor(cosine, ior, 0.0), F_dielectric(cosine, ior), 2e-14 / std::min(1.0, std::sqrt(std::abs(g2))))
+        ASSERT_NEAR(F_conductor(cosine, ior, 0.0), F_dielectric(cosine, ior),
+                    2e-14 / std::min(1.0, std::sqrt(std::abs(g2))))
             << cosine << ' ' << ior;
     }
     EXPECT_EQ(F_conductor(0.0, .2, 3.4), 1);
-    EXPECT_NEAR(F_conductor(1.0, .183, 3.42), (.817 * .817 + 3.42 * 3.42) / (1.183 * 1.183 + 3.42 * 3.42), 1e-15);
+    EXPECT_NEAR(F_conductor(1.0, .183, 3.42), (.817 * .817 + 3.42 * 3.42) / (1.183 * 1.183 + 3.42 * 3.42),
+                1e-15);
 }
 
 TEST(Fresnel, SchlickIsAsFarFromTheTruthAsStated) {
     const double stated[][2] = {{1.33, .060}, {1.5, .036}, {1.8, .035}, {2, .045}, {2.5, .083}, {3, .125}};
     for (const auto& [ior, error] : stated) {
-        const double measured = schlick_error(f0_from_ior(ior), [&](double c) { return F_dielectric(c, ior); });
+        const double measured =
+            schlick_error(f0_from_ior(ior), [&](double c) { return F_dielectric(c, ior); });
         EXPECT_LE(measured, error + 5e-4) << ior;
         EXPECT_GT(measured, error - 1.5e-3) << ior;
     }
@@ -83,8 +87,8 @@ TEST(Fresnel, SchlickIsAsFarFromTheTruthAsStated) {
         return schlick_error(F_conductor(1.0, ior, k), [&](double c) { return F_conductor(c, ior, k); });
     };
     EXPECT_NEAR(std::max({metal(.183, 3.42), metal(.42, 2.35), metal(1.37, 1.77)}), .022, 5e-4);  // gold
-    EXPECT_NEAR(metal(1.35, 7.47), .117, 5e-4);                                                  // aluminium
-    EXPECT_NEAR(metal(3.18, 3.30), .198, 1e-3);                                                  // chromium
+    EXPECT_NEAR(metal(1.35, 7.47), .117, 5e-4);                                                   // aluminium
+    EXPECT_NEAR(metal(3.18, 3.30), .198, 1e-3);                                                   // chromium
 }
 
 TEST(Fresnel, ReflectanceAndIorAreF0sOwnWords) {
@@ -104,7 +108,8 @@ RC_GTEST_PROP(Fresnel, ConversionsInvert, ()) {
 
 RC_GTEST_PROP(Fresnel, ReflectsBetweenNothingAndAll, ()) {
     const double cosine = *unit_interval(), ior = *log_uniform(.2, 5), k = *uniform(0, 9);
-    for (const double F : {F_dielectric(cosine, ior), F_conductor(cosine, ior, k), F_conductor(cosine, ior, 0.0)})
+    for (const double F :
+         {F_dielectric(cosine, ior), F_conductor(cosine, ior, k), F_conductor(cosine, ior, 0.0)})
         RC_ASSERT(F >= 0 && F <= 1 + 1e-15);
 }
 
@@ -118,16 +123,19 @@ TEST(Fresnel, MicroOcclusionEndsAtTwoPercent) {
 
 TEST(Fresnel, FloatIsWithinTheUlpStated) {
     for (int i = 0; i < 100'000; ++i) {
-        const float c = static_cast<float>(random_unit(4, i)), ior = static_cast<float>(.3 + 4 * random_unit(5, i)),
+        const float c = static_cast<float>(random_unit(4, i)),
+                    ior = static_cast<float>(.3 + 4 * random_unit(5, i)),
                     k = static_cast<float>(8 * random_unit(6, i));
         const double dc = c, di = ior, dk = k;
         EXPECT_LT(ulp_error(schlick_weight(c), schlick_weight(dc)), 5);
         const double g2 = (di - 1) * (di + 1) + dc * dc;
         if (di >= 1 || std::abs(g2) > 1e-6) {
-            EXPECT_LT(ulp_error_of(1, F_dielectric(c, ior), F_dielectric(dc, di)), di >= 1 ? 8 : 8 + 4 / std::sqrt(std::abs(g2)))
+            EXPECT_LT(ulp_error_of(1, F_dielectric(c, ior), F_dielectric(dc, di)),
+                      di >= 1 ? 8 : 8 + 4 / std::sqrt(std::abs(g2)))
                 << c << ' ' << ior;
         }
-        EXPECT_LT(ulp_error_of(1, F_conductor(c, ior, k), F_conductor(dc, di, dk)), 16) << c << ' ' << ior << ' ' << k;
+        EXPECT_LT(ulp_error_of(1, F_conductor(c, ior, k), F_conductor(dc, di, dk)), 16)
+            << c << ' ' << ior << ' ' << k;
         EXPECT_LT(ulp_error(f0_from_ior(ior), f0_from_ior(di)), 4);
         EXPECT_LT(ulp_error(ior_from_f0(c), ior_from_f0(dc)), 4 / (1 - std::sqrt(dc)));
         EXPECT_LT(ulp_error(f0_from_reflectance(c), f0_from_reflectance(dc)), 2);

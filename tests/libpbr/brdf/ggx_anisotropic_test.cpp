@@ -28,8 +28,9 @@ TEST(GgxAnisotropic, ConventionsHoldWhatTheySay) {
 
 TEST(GgxAnisotropic, ProjectedAreaOfNormalsIsOne) {
     for (const auto& alpha : kWidths)
-        EXPECT_NEAR(integrate_hemisphere([&](const Vec3<double>& w) { return D_ggx_anisotropic(w, alpha) * w.z; }, 1e-9), 1,
-                    1e-8)
+        EXPECT_NEAR(integrate_hemisphere(
+                        [&](const Vec3<double>& w) { return D_ggx_anisotropic(w, alpha) * w.z; }, 1e-9),
+                    1, 1e-8)
             << alpha.x;
 }
 
@@ -39,7 +40,10 @@ TEST(GgxAnisotropic, MaskedVisibleAreaEqualsTheProjectedOne) {
         for (const double turns : {0.0, .13, .25}) {
             const Vec3<double> wo = direction_at(.35, turns);
             const double area = integrate_hemisphere(
-                [&](const Vec3<double>& w) { return std::max(0.0, glm::dot(wo, w)) * D_ggx_anisotropic(w, alpha); }, 1e-6);
+                [&](const Vec3<double>& w) {
+                    return std::max(0.0, glm::dot(wo, w)) * D_ggx_anisotropic(w, alpha);
+                },
+                1e-6);
             EXPECT_NEAR(2 * wo.z / (wo.z + smith_ggx_root_anisotropic(wo, alpha)) * area, wo.z, 1e-5);
         }
 }
@@ -51,7 +55,8 @@ TEST(GgxAnisotropic, IsTheIsotropicOneWhereTheWidthsAgree) {
         const float a = static_cast<float>(std::pow(random_unit(1, i), 3) + 1e-3);
         const AnisotropicAlpha<float> alpha{a, a};
         ASSERT_EQ(D_ggx_anisotropic(r.wm, alpha), D_ggx(r.NoH, r.sin2, a));
-        worst_root = std::max(worst_root, ulp_distance(smith_ggx_root_anisotropic(r.wo, alpha), smith_ggx_root(r.NoV, a)));
+        worst_root = std::max(
+            worst_root, ulp_distance(smith_ggx_root_anisotropic(r.wo, alpha), smith_ggx_root(r.NoV, a)));
         worst_V = std::max(worst_V, ulp_distance(V_smith_ggx_anisotropic_correlated(r.wo, r.wi, alpha),
                                                  V_smith_ggx_correlated(r.NoL, r.NoV, a)));
         const float u1 = static_cast<float>(random_unit(2, i)), u2 = static_cast<float>(random_unit(3, i));
@@ -73,10 +78,10 @@ TEST(GgxAnisotropic, TurningTheSurfaceSwapsTheWidths) {
 
 TEST(GgxAnisotropic, NdfSamplingMatchesItsDensity) {
     for (const auto& alpha : kWidths)
-        EXPECT_GT(
-            chi_square_p_value([&](double u1, double u2) { return sample_ggx_anisotropic_ndf(alpha, u1, u2); },
-                               [&](const Vec3<double>& w) { return pdf_ggx_anisotropic_ndf(alpha, w); }),
-            kSignificance)
+        EXPECT_GT(chi_square_p_value(
+                      [&](double u1, double u2) { return sample_ggx_anisotropic_ndf(alpha, u1, u2); },
+                      [&](const Vec3<double>& w) { return pdf_ggx_anisotropic_ndf(alpha, w); }),
+                  kSignificance)
             << alpha.x;
 }
 
@@ -84,10 +89,11 @@ TEST(GgxAnisotropic, VndfSamplingMatchesItsDensity) {
     for (const auto& alpha : kWidths)
         for (const double NoV : {0.0, .3, 1.0}) {
             const Vec3<double> wo = direction_at(NoV, .1);
-            EXPECT_GT(chi_square_p_value(
-                          [&](double u1, double u2) { return sample_ggx_anisotropic_vndf(wo, alpha, u1, u2); },
-                          [&](const Vec3<double>& w) { return pdf_ggx_anisotropic_vndf(wo, alpha, w); }),
-                      kSignificance)
+            EXPECT_GT(
+                chi_square_p_value(
+                    [&](double u1, double u2) { return sample_ggx_anisotropic_vndf(wo, alpha, u1, u2); },
+                    [&](const Vec3<double>& w) { return pdf_ggx_anisotropic_vndf(wo, alpha, w); }),
+                kSignificance)
                 << alpha.x << ' ' << NoV;
         }
 }
@@ -100,7 +106,8 @@ TEST(GgxAnisotropic, InverseReturnsTheSample) {
         EXPECT_NEAR(ndf.u1, u1, 1e-9);
         EXPECT_NEAR(std::remainder(ndf.u2 - u2, 1.0), 0, 1e-9);
         const Vec3<double> wo = direction_at(random_unit(8, i), random_unit(9, i));
-        const Sample2 vndf = inverse_ggx_anisotropic_vndf(wo, alpha, sample_ggx_anisotropic_vndf(wo, alpha, u1, u2));
+        const Sample2 vndf =
+            inverse_ggx_anisotropic_vndf(wo, alpha, sample_ggx_anisotropic_vndf(wo, alpha, u1, u2));
         EXPECT_NEAR(vndf.u2, u2, 1e-7);
         if (u2 > 1e-3 && u2 < .999) {
             EXPECT_NEAR(std::remainder(vndf.u1 - u1, 1.0), 0, 1e-6);
@@ -139,6 +146,14 @@ TEST(GgxAnisotropic, FloatIsWithinTheUlpStated) {
         const auto a = anisotropic_alpha(static_cast<float>(std::pow(random_unit(10, i), 3) + 1e-3),
                                          static_cast<float>(random_unit(11, i)));
         const AnisotropicAlpha<double> b{a.x, a.y};
+        EXPECT_NEAR(glm::length(Vec3<double>(sample_ggx_anisotropic_vndf(r.wo, a, .3f, .6f))), 1,
+                    4 * 0x1p-23);
+        EXPECT_LT(ulp_error(pdf_ggx_anisotropic_ndf(a, r.wm), pdf_ggx_anisotropic_ndf(b, d.wm)), 14);
+        if (d.LoH > .1) {  // below, wo.wm cancels
+            EXPECT_LT(
+                ulp_error(pdf_ggx_anisotropic_vndf(r.wo, a, r.wm), pdf_ggx_anisotropic_vndf(d.wo, b, d.wm)),
+                20);
+        }
         EXPECT_LT(ulp_error(D_ggx_anisotropic(r.wm, a), D_ggx_anisotropic(d.wm, b)), 12);
         EXPECT_LT(ulp_error(smith_ggx_root_anisotropic(r.wo, a), smith_ggx_root_anisotropic(d.wo, b)), 4);
         EXPECT_LT(ulp_error(V_smith_ggx_anisotropic_correlated(r.wo, r.wi, a),

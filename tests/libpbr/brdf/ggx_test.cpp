@@ -101,7 +101,8 @@ TEST(Ggx, SpecularTimesCosineIsFiniteWhereVisibilityIsNot) {
 
 TEST(Ggx, FloatIsWithinTheUlpStated) {
     for (int i = 0; i < 100'000; ++i) {
-        const float NoL = static_cast<float>(random_unit(12, i)), NoV = static_cast<float>(random_unit(13, i)),
+        const float NoL = static_cast<float>(random_unit(12, i)),
+                    NoV = static_cast<float>(random_unit(13, i)),
                     alpha = static_cast<float>(std::pow(random_unit(14, i), 4) + 1e-4),
                     NoH = static_cast<float>(random_unit(15, i)), sin2 = (1 - NoH) * (1 + NoH);
         const double l = NoL, v = NoV, a = alpha, h = NoH, s = sin2;

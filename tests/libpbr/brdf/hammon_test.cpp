@@ -31,7 +31,8 @@ TEST(HammonDiffuse, HasTheAlbedosStated) {
 }
 
 TEST(HammonDiffuse, SmoothSurfaceIsShirleys) {
-    // 1.05 (1 - (1 - NoL)^5)(1 - (1 - NoV)^5): the mean over NoL of the second factor is 20/21, so that 1.05 = 21/20.
+    // 1.05 (1 - (1 - NoL)^5)(1 - (1 - NoV)^5): the mean over NoL of the second factor is 20/21, so that 1.05
+    // = 21/20.
     for (const double NoV : {.1, .5, 1.0})
         EXPECT_NEAR(albedo_hammon(1, NoV, 0), 1 - std::pow(1 - NoV, 5), 1e-6) << NoV;
 }

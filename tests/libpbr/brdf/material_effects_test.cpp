@@ -37,7 +37,8 @@ struct ClothAlbedo {
 
 template <class M>
 double albedo(const M& material, double NoV) {
-    return reflection_albedo_fixed([&](const Reflection<double>& r) { return material.f(r.wo, r.wi).x; }, NoV);
+    return reflection_albedo_fixed([&](const Reflection<double>& r) { return material.f(r.wo, r.wi).x; },
+                                   NoV);
 }
 
 constexpr StandardMaterial<double> kWhiteMetal{{1, 1, 1}, .2, 1, .5};  // alpha .64
@@ -49,7 +50,8 @@ TEST(MaterialEffects, WhiteMetalReturnsOneWithEitherCompensation) {
     for (const double NoV : {.1, .9}) {
         EXPECT_LT(albedo(Material(kWhiteMetal), NoV), .95);
         EXPECT_NEAR(albedo(Material(kWhiteMetal, EnergyCompensation<double, ExactE>{}), NoV), 1, 2e-4);
-        EXPECT_NEAR(albedo(Material(kWhiteMetal, MultipleScattering<double, ExactE>{{}, E_avg}), NoV), 1, 2e-4);
+        EXPECT_NEAR(albedo(Material(kWhiteMetal, MultipleScattering<double, ExactE>{{}, E_avg}), NoV), 1,
+                    2e-4);
     }
 }
 
@@ -75,16 +77,19 @@ TEST(MaterialEffects, CoatOverADielectricOfItsOwnIndexLeavesNoBoundary) {
 TEST(MaterialEffects, DiffuseModelsReplaceDisneys) {
     const Reflection<double> r = reflection(direction_at(.6, 0), direction_at(.3, .2));
     EXPECT_EQ(Material(kWhitePaint, LambertDiffuse<double>{}).diffuse(r).x, f_lambert<double>());
-    EXPECT_EQ(Material(kWhitePaint, EonDiffuse<double>{.4}).diffuse(r).x, f_eon(1.0, .4, r.NoL, r.NoV, r.LoV));
-    EXPECT_EQ(Material(kWhitePaint, ChanDiffuse<double>{}).diffuse(r).x, f_chan(r.NoL, r.NoV, r.NoH, r.LoH, .25));
+    EXPECT_EQ(Material(kWhitePaint, EonDiffuse<double>{.4}).diffuse(r).x,
+              f_eon(1.0, .4, r.NoL, r.NoV, r.LoV));
+    EXPECT_EQ(Material(kWhitePaint, ChanDiffuse<double>{}).diffuse(r).x,
+              f_chan(r.NoL, r.NoV, r.NoH, r.LoH, .25));
     EXPECT_EQ(Material(kWhitePaint, HammonDiffuse<double>{}).diffuse(r).x,
               f_hammon(1.0, r.NoL, r.NoV, r.NoH, r.LoV, .25));
 }
 
 RC_GTEST_PROP(MaterialEffects, AreReciprocalFiniteAndPositive, ()) {
     const Vec3<double> wo = *direction(1e-9), wi = *direction(1e-9);
-    const StandardMaterial<double> authored{Vec3<double>(*unit_interval(), *unit_interval(), *unit_interval()),
-                                            *uniform(0, .98), *unit_interval(), *unit_interval()};
+    const StandardMaterial<double> authored{
+        Vec3<double>(*unit_interval(), *unit_interval(), *unit_interval()), *uniform(0, .98),
+        *unit_interval(), *unit_interval()};
     const auto E = [](double, double) { return .6; };
     const auto check = [&](const auto& material) {
         const Vec3<double> there = material.f(wo, wi), back = material.f(wi, wo);
@@ -99,7 +104,8 @@ RC_GTEST_PROP(MaterialEffects, AreReciprocalFiniteAndPositive, ()) {
     check(Material(authored, Cloth<double, decltype(E)>{Vec3<double>(strength), alpha, E}));
     check(Material(authored, Anisotropy<double>{strength}));
     check(Material(authored, MultipleScattering<double, decltype(E)>{E, .6}));
-    check(Material(authored, EonDiffuse<double>{strength}, Anisotropy<double>{strength}, ClearCoat<double>{strength, alpha}));
+    check(Material(authored, EonDiffuse<double>{strength}, Anisotropy<double>{strength},
+                   ClearCoat<double>{strength, alpha}));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <type_traits>
 
 #include "pbr/brdf/material_effects.hpp"
@@ -14,7 +15,8 @@ namespace {
 // What is absent takes no room, and an effect takes its own.
 static_assert(sizeof(Material<float>) == sizeof(Surface<float>));
 static_assert(sizeof(Material<double>) == sizeof(Surface<double>));
-static_assert(sizeof(Material<float, Anisotropy<float>>) == sizeof(Surface<float>) + sizeof(Anisotropy<float>));
+static_assert(sizeof(Material<float, Anisotropy<float>>) ==
+              sizeof(Surface<float>) + sizeof(Anisotropy<float>));
 static_assert(std::is_trivially_copyable_v<Material<float>>);
 
 // Which hooks an effect has is seen by the compiler.
@@ -46,7 +48,8 @@ TEST(Material, BareIsTheBareLobesToTheBit) {
         const float diffuse = f_disney_diffuse(r.NoL, r.NoV, r.LoH, s.perceptual_roughness);
         const float DV = D_ggx(r.NoH, r.sin2, s.alpha) * V_smith_ggx_correlated(r.NoL, r.NoV, s.alpha);
         Vec3<float> lobes;
-        for (int c = 0; c < 3; ++c) lobes[c] = s.diffuse_albedo[c] * diffuse + F_schlick(s.f0[c], s.f90, r.LoH) * DV;
+        for (int c = 0; c < 3; ++c)
+            lobes[c] = s.diffuse_albedo[c] * diffuse + F_schlick(s.f0[c], s.f90, r.LoH) * DV;
         ASSERT_EQ(Material<float>(authored).f(wo, wi), r.NoL > 0 && r.NoV > 0 ? lobes : Vec3<float>(0));
     }
 }
@@ -89,7 +92,25 @@ TEST(Material, LayersDoNotCommute) {
     EXPECT_GT(std::abs(coat_on_top.x - cloth_on_top.x), 1e-3);
     // By hand, from the outside in.
     const Reflection<double> r = reflection(wo, wi);
-    EXPECT_EQ(coat_on_top, coat.over(r, cloth.over(r, Material(kPaint, coat).diffuse(r) + Material(kPaint, coat).specular(r))));
+    EXPECT_EQ(coat_on_top, coat.over(r, cloth.over(r, Material(kPaint, coat).diffuse(r) +
+                                                          Material(kPaint, coat).specular(r))));
+}
+
+TEST(Material, IsFiniteAtItsHazards) {
+    const auto albedo = [](float, float) { return .5f; };
+    const Material material(StandardMaterial<float>{Vec3<float>(1), .99f, .5f, .5f}, EonDiffuse<float>{1},
+                            Anisotropy<float>{1}, MultipleScattering<float, decltype(albedo)>{albedo, .999f},
+                            Cloth<float, decltype(albedo)>{Vec3<float>(1), 1e-3f, albedo},
+                            ClearCoat<float>{1, 1e-4f});
+    for (const float cosine : {1e-20f, 1e-8f, 1e-3f, .5f, 1.f})
+        for (const float turns : {0.f, .25f, .5f}) {
+            const Vec3<float> wo(direction_at(cosine, 0)), wi(direction_at(1e-20, turns));
+            for (const auto& f : {material.f(wo, wi), material.f(wi, wo), material.f(wo, wo)})
+                for (int c = 0; c < 3; ++c) {
+                    EXPECT_TRUE(std::isfinite(f[c])) << cosine << ' ' << turns;
+                    EXPECT_GE(f[c], 0);
+                }
+        }
 }
 
 TEST(Material, NothingReturnsFromBelow) {

@@ -27,11 +27,12 @@ TEST(Multiscatter, AverageAlbedoHasThePublishedValues) {
 TEST(Multiscatter, AverageAlbedoAgreesWithAdaptiveIntegration) {
     for (const double alpha : {1e-3, .02, .1, .5, 1.0}) {
         const auto mean = [&](double a, double b) {
-            return gauss_kronrod<double, 31>::integrate([&](double mu) { return 2 * mu * (1 - E_ggx(mu, alpha)); }, a, b, 4,
-                                                        1e-9);
+            return gauss_kronrod<double, 31>::integrate(
+                [&](double mu) { return 2 * mu * (1 - E_ggx(mu, alpha)); }, a, b, 4, 1e-9);
         };
         const double split = std::min(1.0, 4 * alpha);
-        EXPECT_NEAR(average_albedo_ggx(alpha), 1 - mean(0, alpha) - mean(alpha, split) - mean(split, 1), 2e-8) << alpha;
+        EXPECT_NEAR(average_albedo_ggx(alpha), 1 - mean(0, alpha) - mean(alpha, split) - mean(split, 1), 2e-8)
+            << alpha;
     }
 }
 
@@ -58,8 +59,8 @@ TEST(Multiscatter, KullaContyReturnsOneInAWhiteFurnace) {
 }
 
 TEST(Multiscatter, ColourIsTheSumOverBounces) {
-    // A path escapes at each facet with E_avg and meets another with 1 - E_avg; each meeting costs F. What single
-    // scattering (one facet) lost leaves at the second facet or later, which F = 1 normalises to 1.
+    // A path escapes at each facet with E_avg and meets another with 1 - E_avg; each meeting costs F. What
+    // single scattering (one facet) lost leaves at the second facet or later, which F = 1 normalises to 1.
     for (const double F : {.04, .5, .95, 1.0})
         for (const double E_avg : {.41, .7, .97}) {
             double inside = F, left = 0;
@@ -88,7 +89,8 @@ TEST(Multiscatter, TheThreeAgreeOnColouredMetals) {
     const DirectionalAlbedo table = dfg_ggx(1.0, 1.0, DfgMethod::quadrature(1e-8));
     for (const double f0 : {.9, .5}) {
         const double single = f0 * (table.E - table.Fc) + table.Fc, E_avg = average_albedo_ggx(1.0);
-        const double kulla_conty = single + (1 - table.E) * multiscatter_colour(average_schlick(f0, 1.0), E_avg);
+        const double kulla_conty =
+            single + (1 - table.E) * multiscatter_colour(average_schlick(f0, 1.0), E_avg);
         const double turquin = single * multiscatter_factor_turquin(f0, table.E);
         const auto fdez = multiscatter_albedo_fdez_aguera(f0, 1.0, table.E, table.Fc);
         EXPECT_NEAR(kulla_conty, turquin, .08) << f0;
@@ -105,7 +107,8 @@ TEST(Multiscatter, MirrorHasNothingToReturn) {
 }
 
 RC_GTEST_PROP(Multiscatter, StaysWithinEnergy, ()) {
-    const double E = *uniform(.3, 1), Fc = *uniform(0, 1) * E, f0 = *unit_interval(), E_avg = *uniform(.4, .999);
+    const double E = *uniform(.3, 1), Fc = *uniform(0, 1) * E, f0 = *unit_interval(),
+                 E_avg = *uniform(.4, .999);
     const auto albedo = multiscatter_albedo_fdez_aguera(f0, 1.0, E, Fc);
     RC_ASSERT(albedo.single >= 0 && albedo.multiple >= 0 && albedo.single + albedo.multiple <= 1 + 1e-14);
     const double colour = multiscatter_colour(f0, E_avg);

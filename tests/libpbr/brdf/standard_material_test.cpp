@@ -32,8 +32,9 @@ TEST(StandardMaterial, LowReflectanceOccludes) {
 }
 
 RC_GTEST_PROP(StandardMaterial, SurfaceStaysInRange, ()) {
-    const StandardMaterial<double> material{Vec3<double>(*unit_interval(), *unit_interval(), *unit_interval()),
-                                            *unit_interval(), *unit_interval(), *unit_interval()};
+    const StandardMaterial<double> material{
+        Vec3<double>(*unit_interval(), *unit_interval(), *unit_interval()), *unit_interval(),
+        *unit_interval(), *unit_interval()};
     const Surface<double> s = surface_from_material(material);
     for (int c = 0; c < 3; ++c) {
         RC_ASSERT(s.diffuse_albedo[c] >= 0 && s.diffuse_albedo[c] <= 1);
@@ -45,10 +46,12 @@ RC_GTEST_PROP(StandardMaterial, SurfaceStaysInRange, ()) {
 TEST(StandardMaterial, LobesHaveTheAlbedosOfTheTables) {
     const Surface<double> s = surface_from_material<double>({Vec3<double>(.6), .5, 0, .5});
     for (const double NoV : {.1, .7}) {
-        EXPECT_NEAR(reflection_albedo([&](const Reflection<double>& r) { return f_standard_diffuse(s, r).x; }, NoV),
-                    .6 * albedo_disney_diffuse(NoV, .5), 1e-7);
-        EXPECT_NEAR(reflection_albedo([&](const Reflection<double>& r) { return DV_standard_specular(s, r); }, NoV),
-                    dfg_ggx(NoV, s.alpha, DfgMethod::quadrature(1e-8)).E, 1e-6);
+        EXPECT_NEAR(
+            reflection_albedo([&](const Reflection<double>& r) { return f_standard_diffuse(s, r).x; }, NoV),
+            .6 * albedo_disney_diffuse(NoV, .5), 1e-7);
+        EXPECT_NEAR(
+            reflection_albedo([&](const Reflection<double>& r) { return DV_standard_specular(s, r); }, NoV),
+            dfg_ggx(NoV, s.alpha, DfgMethod::quadrature(1e-8)).E, 1e-6);
     }
 }
 
@@ -78,7 +81,8 @@ TEST(StandardMaterial, FloatIsWithinTheUlpStated) {
             EXPECT_LT(ulp_error_of(1, s.f0[c], d.f0[c]), 4);
             EXPECT_LT(ulp_error_of(1, s.diffuse_albedo[c], d.diffuse_albedo[c]), 4);
         }
-        const Surface<double> same{Vec3<double>(s.diffuse_albedo), Vec3<double>(s.f0), s.f90, s.perceptual_roughness, s.alpha};
+        const Surface<double> same{Vec3<double>(s.diffuse_albedo), Vec3<double>(s.f0), s.f90,
+                                   s.perceptual_roughness, s.alpha};
         const Reflection<float> r = as_float(sample_reflection(i));
         EXPECT_LT(ulp_error(DV_standard_specular(s, r), DV_standard_specular(same, as_double(r))), 16);
     }

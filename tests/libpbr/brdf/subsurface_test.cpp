@@ -23,17 +23,22 @@ TEST(BurleyProfile, IntegratesToTheAlbedoOverThePlane) {
     boost::math::quadrature::exp_sinh<double> half_line;
     for (const double d : {.01, 1.0, 30.0})
         for (const double albedo : {.2, 1.0}) {
-            const auto ring = [&](double r) { return 2 * std::numbers::pi * r * burley_profile(r, d, albedo); };
-            EXPECT_NEAR(half_line.integrate(ring, 0.0, std::numeric_limits<double>::infinity(), 1e-12), albedo, 1e-9) << d;
+            const auto ring = [&](double r) {
+                return 2 * std::numbers::pi * r * burley_profile(r, d, albedo);
+            };
+            EXPECT_NEAR(half_line.integrate(ring, 0.0, std::numeric_limits<double>::infinity(), 1e-12),
+                        albedo, 1e-9)
+                << d;
         }
     EXPECT_TRUE(std::isinf(burley_profile(0.0, 1.0, 1.0)));
 }
 
 TEST(BurleyProfile, CdfIsItsIntegral) {
     for (const double r : {1e-6, .1, 1.0, 7.0, 40.0})
-        EXPECT_NEAR(burley_cdf(r, 2.0) / (gauss_kronrod<double, 31>::integrate(
-                                             [](double x) { return pdf_burley_radius(x, 2.0); }, 0.0, r, 6, 1e-13)),
-                    1, 1e-12);
+        EXPECT_NEAR(
+            burley_cdf(r, 2.0) / (gauss_kronrod<double, 31>::integrate(
+                                     [](double x) { return pdf_burley_radius(x, 2.0); }, 0.0, r, 6, 1e-13)),
+            1, 1e-12);
     EXPECT_EQ(burley_cdf(0.0, 1.0), 0);
     EXPECT_EQ(burley_cdf(std::numeric_limits<double>::infinity(), 1.0), 1);
     EXPECT_DOUBLE_EQ(pdf_burley_radius(1.3, 2.0), 2 * std::numbers::pi * 1.3 * burley_profile(1.3, 2.0, 1.0));
@@ -57,17 +62,18 @@ TEST(BurleyProfile, SamplesFollowTheDensity) {
         ++observed[std::min(kBins, static_cast<int>(sample_burley_radius(random_unit(1, i), 1.0) * 4))];
     double statistic = 0;
     for (int bin = 0; bin <= kBins; ++bin) {
-        const double to = bin < kBins ? burley_cdf((bin + 1) / 4.0, 1.0) : 1, expected = kCount * (to - burley_cdf(bin / 4.0, 1.0));
+        const double to = bin < kBins ? burley_cdf((bin + 1) / 4.0, 1.0) : 1,
+                     expected = kCount * (to - burley_cdf(bin / 4.0, 1.0));
         statistic += (observed[bin] - expected) * (observed[bin] - expected) / expected;
     }
     EXPECT_LT(statistic, 83.5);  // 40 degrees of freedom, p = 7e-5
 }
 
-/// A random walk in an index-matched half space that scatters isotropically with unit mean free path: the radius and
-/// weight of what leaves.
+/// A random walk in an index-matched half space that scatters isotropically with unit mean free path: the
+/// radius and weight of what leaves.
 struct Walk {
-    double albedo;            ///< share of the flux that leaves
-    double difference;        ///< L1 distance of its radial density from Burley's, the fit's d
+    double albedo;      ///< share of the flux that leaves
+    double difference;  ///< L1 distance of its radial density from Burley's, the fit's d
     double cdf_difference;
 };
 Walk random_walk(double scattering_albedo, bool diffuse, double (*scale)(double)) {
@@ -77,7 +83,8 @@ Walk random_walk(double scattering_albedo, bool diffuse, double (*scale)(double)
     for (std::uint64_t i = 0; i < kCount; ++i) {
         std::uint64_t draw = 0;
         const auto next = [&] { return random_unit(7 + (diffuse ? 1 : 0), i, draw++); };
-        double x = 0, y = 0, z = 0, weight = 1, dz = diffuse ? std::sqrt(next()) : 1, dx = std::sqrt(1 - dz * dz), dy = 0;
+        double x = 0, y = 0, z = 0, weight = 1, dz = diffuse ? std::sqrt(next()) : 1,
+               dx = std::sqrt(1 - dz * dz), dy = 0;
         while (weight > 1e-3) {
             const double step = -std::log1p(-next());
             if (z + dz * step < 0) {
@@ -98,8 +105,10 @@ Walk random_walk(double scattering_albedo, bool diffuse, double (*scale)(double)
     Walk walk{albedo, 0, 0};
     double cdf = 0;
     for (int bin = 0; bin < kBins; ++bin) {
-        walk.difference += std::abs(bins[bin] - (burley_cdf((bin + 1) * width, d) - burley_cdf(bin * width, d)));
-        walk.cdf_difference = std::max(walk.cdf_difference, std::abs((cdf += bins[bin]) - burley_cdf((bin + 1) * width, d)));
+        walk.difference +=
+            std::abs(bins[bin] - (burley_cdf((bin + 1) * width, d) - burley_cdf(bin * width, d)));
+        walk.cdf_difference =
+            std::max(walk.cdf_difference, std::abs((cdf += bins[bin]) - burley_cdf((bin + 1) * width, d)));
     }
     return walk;
 }
@@ -113,7 +122,8 @@ TEST(BurleyProfile, FitsARandomWalkAsWellAsStated) {
         EXPECT_LT(lit.difference, .045) << lit.albedo;
         EXPECT_LT(lit.cdf_difference, .024) << lit.albedo;
         // The two fits aren't each other's.
-        EXPECT_GT(random_walk(scattering, false, [](double A) { return 1.3 * burley_scale_perpendicular(A); }).difference,
+        EXPECT_GT(random_walk(scattering, false, [](double A) { return 1.3 * burley_scale_perpendicular(A); })
+                      .difference,
                   .1);
     }
 }
@@ -128,8 +138,8 @@ TEST(BurleyProfile, ScalesHaveTheirPublishedValues) {
 }
 
 TEST(PreintegratedDiffusion, AgreesWithIntegrationOverTheSphere) {
-    // Every point of the sphere, as seen from the shaded one at the pole; r R(r) removes the singularity by the
-    // substitution of cosines, as the solid angle is p dp dphi.
+    // Every point of the sphere, as seen from the shaded one at the pole; r R(r) removes the singularity by
+    // the substitution of cosines, as the solid angle is p dp dphi.
     for (const double curvature_d : {.05, .3, 2.0})
         for (const double NoL : {-.7, 0.0, .25, .9}) {
             const double sin_l = std::sqrt(1 - NoL * NoL), radius = 1 / curvature_d;
@@ -139,12 +149,13 @@ TEST(PreintegratedDiffusion, AgreesWithIntegrationOverTheSphere) {
                 const auto lit = [&](double phi) {
                     return std::max(0.0, NoL * std::cos(theta) + sin_l * std::sin(theta) * std::cos(phi));
                 };
-                const double irradiance = gauss_kronrod<double, 15>::integrate(lit, 0.0, std::numbers::pi, 9, 1e-9);
+                const double irradiance =
+                    gauss_kronrod<double, 15>::integrate(lit, 0.0, std::numbers::pi, 9, 1e-9);
                 return 2 * irradiance * burley_profile(chord, 1.0, 1.0) * radius * radius * std::sin(theta);
             };
             const auto whole = [&](double theta) {
-                return 2 * std::numbers::pi * burley_profile(2 * radius * std::sin(theta / 2), 1.0, 1.0) * radius * radius *
-                       std::sin(theta);
+                return 2 * std::numbers::pi * burley_profile(2 * radius * std::sin(theta / 2), 1.0, 1.0) *
+                       radius * radius * std::sin(theta);
             };
             const double value = theta_rule.integrate(ring, 0.0, std::numbers::pi, 1e-7) /
                                  theta_rule.integrate(whole, 0.0, std::numbers::pi, 1e-10);
@@ -163,12 +174,15 @@ TEST(PreintegratedDiffusion, MovesLightOnly) {
 }
 
 TEST(PreintegratedDiffusion, SatisfiesTheIdentityOfOppositeLights) {
-    // max(c, 0) - max(-c, 0) = c, and a cosine spread over the sphere is a cosine again: its factor doesn't depend on NoL.
+    // max(c, 0) - max(-c, 0) = c, and a cosine spread over the sphere is a cosine again: its factor doesn't
+    // depend on NoL.
     for (const double curvature_d : {.01, .3, 3.0}) {
-        const double factor = preintegrated_diffusion(1.0, curvature_d) - preintegrated_diffusion(-1.0, curvature_d);
+        const double factor =
+            preintegrated_diffusion(1.0, curvature_d) - preintegrated_diffusion(-1.0, curvature_d);
         for (const double NoL : {.03, .2, .5, .77, .999})
-            EXPECT_NEAR(preintegrated_diffusion(NoL, curvature_d) - preintegrated_diffusion(-NoL, curvature_d), factor * NoL,
-                        1e-9)
+            EXPECT_NEAR(
+                preintegrated_diffusion(NoL, curvature_d) - preintegrated_diffusion(-NoL, curvature_d),
+                factor * NoL, 1e-9)
                 << curvature_d << ' ' << NoL;
     }
 }
@@ -204,7 +218,8 @@ TEST(Subsurface, FloatIsWithinTheUlpStated) {
     for (int i = 0; i < 50'000; ++i) {
         const float d = static_cast<float>(.01 + random_unit(1, i)),
                     r = static_cast<float>(std::pow(random_unit(2, i), 4) * 20 + 1e-6) * d,
-                    u = static_cast<float>(std::pow(random_unit(3, i), 3)), n = static_cast<float>(random_unit(4, i));
+                    u = static_cast<float>(std::pow(random_unit(3, i), 3)),
+                    n = static_cast<float>(random_unit(4, i));
         const double dd = d, dr = r, du = u, dn = n;
         EXPECT_LT(ulp_error(burley_profile(r, d, .5f), burley_profile(dr, dd, .5)), 4 + dr / dd);
         EXPECT_LT(ulp_error(pdf_burley_radius(r, d), pdf_burley_radius(dr, dd)), 4 + dr / dd);

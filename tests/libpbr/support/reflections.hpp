@@ -25,22 +25,33 @@ inline Reflection<double> sample_reflection(int i) {
 }
 
 /// The same reflection in float, from its rounded directions; and those directions' in double.
-inline Reflection<float> as_float(const Reflection<double>& r) { return reflection(Vec3<float>(r.wo), Vec3<float>(r.wi)); }
+inline Reflection<float> as_float(const Reflection<double>& r) {
+    return reflection(Vec3<float>(r.wo), Vec3<float>(r.wi));
+}
 
 /// A float reflection's members, each exactly, as double.
 inline Reflection<double> as_double(const Reflection<float>& r) {
-    return {Vec3<double>(r.wo), Vec3<double>(r.wi), Vec3<double>(r.wm), r.NoV, r.NoL, r.NoH, r.LoV, r.LoH, r.sin2};
+    return {Vec3<double>(r.wo),
+            Vec3<double>(r.wi),
+            Vec3<double>(r.wm),
+            r.NoV,
+            r.NoL,
+            r.NoH,
+            r.LoV,
+            r.LoH,
+            r.sin2};
 }
 
 /// Adaptive albedo of f(reflection) seen from NoV.
 template <class F>
 double reflection_albedo(const F& f, double NoV, double tolerance = 1e-7) {
     return directional_albedo(
-        [&](const Vec3<double>& wo, const Vec3<double>& wi) { return f(reflection(wo, wi)); }, NoV, tolerance);
+        [&](const Vec3<double>& wo, const Vec3<double>& wi) { return f(reflection(wo, wi)); }, NoV,
+        tolerance);
 }
 
-/// The same by a fixed product rule, NoL = u^2 and azimuths crowded about wo and its antipode: fast, good to about 1e-5 for
-/// lobes no narrower than alpha = .05. For sweeps.
+/// The same by a fixed product rule, NoL = u^2 and azimuths crowded about wo and its antipode: fast, good to
+/// about 1e-5 for lobes no narrower than alpha = .05. For sweeps.
 template <class F>
 double reflection_albedo_fixed(const F& f, double NoV) {
     static const QuadratureRule heights = gauss_legendre(48), azimuths = gauss_legendre(48);
@@ -49,8 +60,10 @@ double reflection_albedo_fixed(const F& f, double NoV) {
     for (int i = 0; i < heights.size(); ++i)
         for (int j = 0; j < azimuths.size(); ++j) {
             const double u = heights.nodes[i], t = azimuths.nodes[j], cube = t * t * t / 4;
-            const double weight = heights.weights[i] * azimuths.weights[j] * 2 * u * 3 * std::numbers::pi * t * t * u * u;
-            sum += weight * (f(reflection(wo, direction_at(u * u, cube))) + f(reflection(wo, direction_at(u * u, .5 - cube))));
+            const double weight =
+                heights.weights[i] * azimuths.weights[j] * 2 * u * 3 * std::numbers::pi * t * t * u * u;
+            sum += weight * (f(reflection(wo, direction_at(u * u, cube))) +
+                             f(reflection(wo, direction_at(u * u, .5 - cube))));
         }
     return sum;
 }

@@ -1,14 +1,14 @@
 #pragma once
-// Charlie, the lobe of cloth: fibres stand up, so that the distribution is empty at the normal and full at grazing angles
-// (Estevez & Kulla 2017, "Production friendly microfacet sheen BRDF"). T is float or double.
+// Charlie, the lobe of cloth: fibres stand up, so that the distribution is empty at the normal and full at
+// grazing angles (Estevez & Kulla 2017, "Production friendly microfacet sheen BRDF"). T is float or double.
 //
 // Directions point away from the surface, normal +z. alpha in (0, 1], the square of perceptual roughness as
 // KHR_materials_sheen has it. The sheen BRDF is D V times the sheen colour (no Fresnel); 1/pi lives in D.
 //
-// Two visibilities go with D. V_charlie is Smith's, with the published fit of Lambda: no more comes back than arrived for
-// alpha >= .07; below, where the fit doesn't reach, up to 2.1 times at alpha .01. V_neubelt is a softener without
-// derivation, cheaper, and what Filament and glTF viewers take: at grazing views it returns .64 (alpha 1), .94 (.25), 1.35
-// (.1), 4.0 (.01) of what arrived.
+// Two visibilities go with D. V_charlie is Smith's, with the published fit of Lambda: no more comes back than
+// arrived for alpha >= .07; below, where the fit doesn't reach, up to 2.1 times at alpha .01. V_neubelt is a
+// softener without derivation, cheaper, and what Filament and glTF viewers take: at grazing views it returns
+// .64 (alpha 1), .94 (.25), 1.35 (.1), 4.0 (.01) of what arrived.
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,8 @@
 
 namespace pbr {
 
-/// ln(sin) of a half vector's cosine, without cancellation at either end. NoH in [0, 1]: 0 at 0, -Inf at 1. Absolute error
-/// below 2 ulp of 1 near the normal, relative error below 4 ulp where NoH^2 < 1/2.
+/// ln(sin) of a half vector's cosine, without cancellation at either end. NoH in [0, 1]: 0 at 0, -Inf at 1.
+/// Absolute error below 2 ulp of 1 near the normal, relative error below 4 ulp where NoH^2 < 1/2.
 template <class T>
 T log_sine_from_cosine(T NoH) {
     const T cos2 = NoH * NoH;
@@ -30,25 +30,28 @@ T log_sine_from_cosine(T NoH) {
     return std::log(std::max((T(1) - NoH) * (T(1) + NoH), T(0))) / T(2);
 }
 
-/// (2 + 1/alpha) sin^(1/alpha) / (2 pi), 1/sr (Estevez & Kulla 2017, 2). NoH in [0, 1], alpha in (0, 1]. 0 at the normal;
-/// largest value (2 + 1/alpha) / (2 pi), at NoH = 0. The power is taken in logarithms, from cos^2: as alpha -> 0 the lobe
-/// becomes a band of width sqrt(alpha) around grazing and this stays exact in it. alpha = 0 is a delta on the
-/// horizon: not a number here. Relative error below 8 + (4 |ln sin| + 2) / alpha ulp.
+/// (2 + 1/alpha) sin^(1/alpha) / (2 pi), 1/sr (Estevez & Kulla 2017, 2). NoH in [0, 1], alpha in (0, 1]. 0 at
+/// the normal; largest value (2 + 1/alpha) / (2 pi), at NoH = 0. The power is taken in logarithms, from
+/// cos^2: as alpha -> 0 the lobe becomes a band of width sqrt(alpha) around grazing and this stays exact in
+/// it. alpha = 0 is a delta on the horizon: not a number here. Relative error below 8 + (4 |ln sin| + 2) /
+/// alpha ulp.
 template <class T>
 T D_charlie(T NoH, T alpha) {
     const T exponent = T(1) / alpha;
-    return (T(2) + exponent) * std::exp(exponent * log_sine_from_cosine(NoH)) / (T(2) * std::numbers::pi_v<T>);
+    return (T(2) + exponent) * std::exp(exponent * log_sine_from_cosine(NoH)) /
+           (T(2) * std::numbers::pi_v<T>);
 }
 
-/// 1 / (4 (NoL + NoV - NoL NoV)) (Neubelt & Pettineo 2013, "Crafting a next-gen material pipeline for The Order: 1886"; the
-/// denominator is Ashikhmin's). NoL, NoV in [0, 1]; both 0: +Inf; one 0: 1 / (4 times the other). Relative error below 4 ulp.
+/// 1 / (4 (NoL + NoV - NoL NoV)) (Neubelt & Pettineo 2013, "Crafting a next-gen material pipeline for The
+/// Order: 1886"; the denominator is Ashikhmin's). NoL, NoV in [0, 1]; both 0: +Inf; one 0: 1 / (4 times the
+/// other). Relative error below 4 ulp.
 template <class T>
 T V_neubelt(T NoL, T NoV) {
     return T(1) / (T(4) * (NoL + NoV - NoL * NoV));
 }
 
-/// Exponent of Charlie's Lambda, a / (1 + b x^c) + d x + e with coefficients mixed by (1 - alpha)^2 (Estevez & Kulla 2017,
-/// table 1). x in [0, 1/2], alpha in [0, 1]. Absolute error below 16 ulp of 32.
+/// Exponent of Charlie's Lambda, a / (1 + b x^c) + d x + e with coefficients mixed by (1 - alpha)^2 (Estevez
+/// & Kulla 2017, table 1). x in [0, 1/2], alpha in [0, 1]. Absolute error below 16 ulp of 32.
 template <class T>
 T lambda_exponent_charlie(T x, T alpha) {
     const T t = (T(1) - alpha) * (T(1) - alpha);
@@ -58,9 +61,10 @@ T lambda_exponent_charlie(T x, T alpha) {
     return a / (T(1) + b * std::pow(x, c)) + d * x + e;
 }
 
-/// Smith's Lambda of Charlie by the published fit (Estevez & Kulla 2017, 3): e^L(c) below c = 1/2, its mirror image e^(2
-/// L(1/2) - L(1 - c)) above. cosine in [0, 1], alpha in (0, 1]. Finite at 0 (8e8 at most), below 5e-8 at 1. Against
-/// Smith's integral over D, G1 = 1 / (1 + Lambda) is off by at most .045 for alpha in [.1, 1], .092 at .05, .34 at .01.
+/// Smith's Lambda of Charlie by the published fit (Estevez & Kulla 2017, 3): e^L(c) below c = 1/2, its mirror
+/// image e^(2 L(1/2) - L(1 - c)) above. cosine in [0, 1], alpha in (0, 1]. Finite at 0 (8e8 at most), below
+/// 5e-8 at 1. Against Smith's integral over D, G1 = 1 / (1 + Lambda) is off by at most .045 for alpha in [.1,
+/// 1], .092 at .05, .34 at .01.
 template <class T>
 T lambda_charlie(T cosine, T alpha) {
     const T half = T(0.5);
@@ -73,19 +77,19 @@ T lambda_charlie(T cosine, T alpha) {
 template <class T>
 inline constexpr T kCharlieSmallestCosine = T(1e-5);
 
-/// Smith's visibility with lambda_charlie, G / (4 NoL NoV), G = 1 / (1 + Lambda(NoV) + Lambda(NoL)) (Estevez & Kulla 2017,
-/// 3). NoL, NoV in [0, 1], alpha in (0, 1]; cosines below kCharlieSmallestCosine count as that, so that it's finite (as
-/// published it returns more than arrived from 1e-8 down, and +Inf at 0). Without the paper's softened terminator, which
-/// isn't reciprocal. Relative error below 64 ulp.
+/// Smith's visibility with lambda_charlie, G / (4 NoL NoV), G = 1 / (1 + Lambda(NoV) + Lambda(NoL)) (Estevez
+/// & Kulla 2017, 3). NoL, NoV in [0, 1], alpha in (0, 1]; cosines below kCharlieSmallestCosine count as that,
+/// so that it's finite (as published it returns more than arrived from 1e-8 down, and +Inf at 0). Without the
+/// paper's softened terminator, which isn't reciprocal. Relative error below 64 ulp.
 template <class T>
 T V_charlie(T NoL, T NoV, T alpha) {
     const T l = std::max(NoL, kCharlieSmallestCosine<T>), v = std::max(NoV, kCharlieSmallestCosine<T>);
     return T(1) / ((T(1) + lambda_charlie(v, alpha) + lambda_charlie(l, alpha)) * T(4) * l * v);
 }
 
-/// A half vector with density D wm.z: sin = u1^(alpha / (2 alpha + 1)). u1, u2 in [0, 1); u1 = 0 is the normal. A unit vector
-/// within 4 ulp, z >= 0. Good for the distribution itself; for lighting, a uniform hemisphere is no worse (Estevez & Kulla
-/// 2017, 4), since visibility is what shapes the lobe.
+/// A half vector with density D wm.z: sin = u1^(alpha / (2 alpha + 1)). u1, u2 in [0, 1); u1 = 0 is the
+/// normal. A unit vector within 4 ulp, z >= 0. Good for the distribution itself; for lighting, a uniform
+/// hemisphere is no worse (Estevez & Kulla 2017, 4), since visibility is what shapes the lobe.
 template <class T>
 Vec3<T> sample_charlie_ndf(T alpha, T u1, T u2) {
     const T log_sine = std::log(u1) * (alpha / (T(2) * alpha + T(1)));  // -Inf at u1 = 0
@@ -100,8 +104,8 @@ T pdf_charlie_ndf(T alpha, const Vec3<T>& wm) {
     return wm.z > T(0) ? D_charlie(wm.z, alpha) * wm.z : T(0);
 }
 
-/// The (u1, u2) that sample_charlie_ndf turns into wm; wm.z >= 0. At the normal both are 0. Round trip within 1e-9 for alpha
-/// >= .001 (double).
+/// The (u1, u2) that sample_charlie_ndf turns into wm; wm.z >= 0. At the normal both are 0. Round trip within
+/// 1e-9 for alpha >= .001 (double).
 template <class T>
 Sample2 inverse_charlie_ndf(T alpha, const Vec3<T>& wm) {
     return {static_cast<double>(std::exp(log_sine_from_cosine(wm.z) * (T(2) + T(1) / alpha))),
@@ -114,9 +118,9 @@ enum class CharlieVisibility {
     neubelt,  ///< V_neubelt
 };
 
-/// Directional albedo of the sheen lobe of white colour, the integral of D V NoL over the hemisphere. NoV in [0, 1], alpha in
-/// [.01, 1]. Absolute error below 5e-6 (quadrature, 8,192 evaluations). Largest values are at grazing view and listed at the
-/// head of this file; at alpha 1 charlie reaches .942 at NoV .008.
+/// Directional albedo of the sheen lobe of white colour, the integral of D V NoL over the hemisphere. NoV in
+/// [0, 1], alpha in [.01, 1]. Absolute error below 8e-6 (quadrature, 1,600 evaluations). Largest values are
+/// at grazing view and listed at the head of this file; at alpha 1 charlie reaches .942 at NoV .008.
 double albedo_charlie(double NoV, double alpha, CharlieVisibility visibility);
 
 }  // namespace pbr

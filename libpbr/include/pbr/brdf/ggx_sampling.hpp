@@ -16,8 +16,8 @@
 
 namespace pbr {
 
-/// Turns in [0, 1) of the azimuth of (x, y); 0 at (0, 0). Absolute error 2e-16 and a rounding to T, which may round a
-/// turn just below 1 up to 1.
+/// Turns in [0, 1) of the azimuth of (x, y); 0 at (0, 0). Absolute error 2e-16 and a rounding to T, which may
+/// round a turn just below 1 up to 1.
 template <class T>
 T azimuth_turns(T x, T y) {
     const double turns = atan2_exact(static_cast<double>(y), static_cast<double>(x)) / (2 * std::numbers::pi);

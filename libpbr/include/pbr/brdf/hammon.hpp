@@ -8,13 +8,14 @@
 
 namespace pbr {
 
-/// Hammon's fit to Lambertian microfacets under GGX, 1/sr, times the colour (Hammon 2017, "PBR diffuse lighting for GGX+Smith
-/// microsurfaces", GDC, slide 113). rho in [0, 1] a channel goes in, since multiple scattering squares it; 1/pi is inside the
-/// single scattering, and .1159 alpha is the multiple scattering's BRDF, already 1/sr (its albedo is .1159 pi alpha = .364
-/// alpha). NoL, NoV, NoH in [0, 1], LoV in [-1, 1], alpha in [0, 1]. Reciprocal. Not energy conserving: for
-/// rho = 1 its albedo runs from 0 (smooth, grazing view) to 1.181 (alpha 1, grazing view), and its mean over views from .97 to
-/// 1.073. +Inf where NoH = 0 and alpha > 0, at opposite grazing directions, though times NoL it's finite. Absolute
-/// error below 16 ulp of the larger of 1 and the value.
+/// Hammon's fit to Lambertian microfacets under GGX, 1/sr, times the colour (Hammon 2017, "PBR diffuse
+/// lighting for GGX+Smith microsurfaces", GDC, slide 113). rho in [0, 1] a channel goes in, since multiple
+/// scattering squares it; 1/pi is inside the single scattering, and .1159 alpha is the multiple scattering's
+/// BRDF, already 1/sr (its albedo is .1159 pi alpha = .364 alpha). NoL, NoV, NoH in [0, 1], LoV in [-1, 1],
+/// alpha in [0, 1]. Reciprocal. Not energy conserving: for rho = 1 its albedo runs from 0 (smooth, grazing
+/// view) to 1.181 (alpha 1, grazing view), and its mean over views from .97 to 1.073. +Inf where NoH = 0 and
+/// alpha > 0, at opposite grazing directions, though times NoL it's finite. Absolute error below 16 ulp of
+/// the larger of 1 and the value.
 template <class Colour, class T>
 Colour f_hammon(const Colour& rho, T NoL, T NoV, T NoH, T LoV, T alpha) {
     const T facing = T(0.5) + T(0.5) * LoV;

@@ -5,8 +5,8 @@
 //     Material varnished(authored, ClearCoat<float>{.strength = 1, .alpha = .01f});
 //     Vec3<float> f = varnished.f(wo, wi);
 //
-// An effect is a plain struct with any of the hooks below; a hook that no effect has leaves no code, and an effect that is
-// absent no member: Material<T> is the bare lobes to the bit, and has the size of its Surface.
+// An effect is a plain struct with any of the hooks below; a hook that no effect has leaves no code, and an
+// effect that is absent no member: Material<T> is the bare lobes to the bit, and has the size of its Surface.
 //
 //     void    prepare(Surface<T>&)                                    once: changes the base's parameters
 //     Vec3<T> diffuse(const Surface<T>&, const Reflection<T>&)        in place of Disney diffuse
@@ -15,8 +15,8 @@
 //     Vec3<T> lobe(const Surface<T>&, const Reflection<T>&)           added to it
 //     Vec3<T> over(const Reflection<T>&, const Vec3<T>& below)        a layer on all that comes before it
 //
-// All hooks are const. Effects stand in the order of their layers, the lowest first. Effects that come with the library are
-// in pbr/brdf/material_effects.hpp.
+// All hooks are const. Effects stand in the order of their layers, the lowest first. Effects that come with
+// the library are in pbr/brdf/material_effects.hpp.
 
 #include <cassert>
 #include <tuple>
@@ -25,30 +25,46 @@
 
 namespace pbr {
 
+/// The effect changes the parameters of the base.
 template <class Effect, class T>
-concept PreparesSurface = requires(const Effect& e, Surface<T>& s) { e.prepare(s); };
+concept PreparesSurface = requires(const Effect& e, Surface<T>& s) {
+    e.prepare(s);
+};
+/// The effect has a diffuse lobe of its own.
 template <class Effect, class T>
-concept ReplacesDiffuse = requires(const Effect& e, const Surface<T>& s, const Reflection<T>& r) { e.diffuse(s, r); };
+concept ReplacesDiffuse = requires(const Effect& e, const Surface<T>& s, const Reflection<T>& r) {
+    e.diffuse(s, r);
+};
+/// The effect has a D V of its own.
 template <class Effect, class T>
-concept ReplacesSpecular =
-    requires(const Effect& e, const Surface<T>& s, const Reflection<T>& r) { e.specular_DV(s, r); };
+concept ReplacesSpecular = requires(const Effect& e, const Surface<T>& s, const Reflection<T>& r) {
+    e.specular_DV(s, r);
+};
+/// The effect has a factor for the specular lobe.
 template <class Effect, class T>
-concept ScalesSpecular =
-    requires(const Effect& e, const Surface<T>& s, const Reflection<T>& r) { e.specular_factor(s, r); };
+concept ScalesSpecular = requires(const Effect& e, const Surface<T>& s, const Reflection<T>& r) {
+    e.specular_factor(s, r);
+};
+/// The effect has a lobe that is added.
 template <class Effect, class T>
-concept AddsLobe = requires(const Effect& e, const Surface<T>& s, const Reflection<T>& r) { e.lobe(s, r); };
+concept AddsLobe = requires(const Effect& e, const Surface<T>& s, const Reflection<T>& r) {
+    e.lobe(s, r);
+};
+/// The effect is a layer on what comes before it.
 template <class Effect, class T>
-concept CoversSurface = requires(const Effect& e, const Reflection<T>& r, const Vec3<T>& f) { e.over(r, f); };
+concept CoversSurface = requires(const Effect& e, const Reflection<T>& r, const Vec3<T>& f) {
+    e.over(r, f);
+};
 
-/// The standard material with effects. At most one effect replaces the diffuse lobe, at most one the specular one; each
-/// effect has a hook (one that is misspelt does not compile).
+/// The standard material with effects. At most one effect replaces the diffuse lobe, at most one the specular
+/// one; each effect has a hook (one that is misspelt does not compile).
 template <class T, class... Effects>
 class Material {
     static_assert((ReplacesDiffuse<Effects, T> + ... + 0) <= 1, "two effects replace the diffuse lobe");
     static_assert((ReplacesSpecular<Effects, T> + ... + 0) <= 1, "two effects replace the specular lobe");
-    static_assert(((PreparesSurface<Effects, T> || ReplacesDiffuse<Effects, T> || ReplacesSpecular<Effects, T> ||
-                    ScalesSpecular<Effects, T> || AddsLobe<Effects, T> || CoversSurface<Effects, T>) &&
-                   ...),
+    static_assert(((PreparesSurface<Effects, T> || ReplacesDiffuse<Effects, T> ||
+                    ReplacesSpecular<Effects, T> || ScalesSpecular<Effects, T> || AddsLobe<Effects, T> ||
+                    CoversSurface<Effects, T>)&&...),
                   "an effect has no hook");
 
   public:
@@ -64,8 +80,9 @@ class Material {
     /// What the lobes take, after every effect prepared it.
     const Surface<T>& surface() const { return surface_; }
 
-    /// The BRDF, 1/sr, without the cosine; 1/pi is inside. wo, wi unit vectors away from the surface; 0 where either is not
-    /// above it. Finite: between 0 and the largest value of its lobes. Error as that of its lobes, and a rounding each.
+    /// The BRDF, 1/sr, without the cosine; 1/pi is inside. wo, wi unit vectors away from the surface; 0 where
+    /// either is not above it. Not negative, and finite where its lobes are (alpha >= 1e-4 and cosines >=
+    /// 1e-20 in float). Error as that of its lobes, and a rounding each.
     Vec3<T> f(const Vec3<T>& wo, const Vec3<T>& wi) const {
         if (wo.z <= T(0) || wi.z <= T(0)) return Vec3<T>(0);
         const Reflection<T> r = reflection(wo, wi);
@@ -118,6 +135,7 @@ class Material {
     [[no_unique_address]] std::tuple<Effects...> effects_;
 };
 
+/// Material(authored, effects...) is a Material<T, Effects...>.
 template <class T, class... Effects>
 Material(const StandardMaterial<T>&, const Effects&...) -> Material<T, Effects...>;
 

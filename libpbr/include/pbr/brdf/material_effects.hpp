@@ -1,8 +1,9 @@
 #pragma once
 // The effects a Material is composed of. T is float or double.
 //
-// Energy, for a white furnace, is stated at each; what is not said to be reciprocal is. Where an effect needs a directional
-// albedo, it takes a function albedo(cosine, alpha) -> T: a baked table's look-up, or any fit of it.
+// Energy, for a white furnace, is stated at each; what is not said to be reciprocal is. Where an effect needs
+// a directional albedo, it takes a function albedo(cosine, alpha) -> T: a baked table's look-up, or any fit
+// of it.
 
 #include <algorithm>
 
@@ -27,25 +28,28 @@ struct ClearCoat {
     /// The base meets the coat instead of air: f0, and with it f90, change by `strength`.
     void prepare(Surface<T>& surface) const {
         for (int c = 0; c < 3; ++c)
-            surface.f0[c] += strength * (f0_under_clear_coat(std::clamp(surface.f0[c], T(0), T(1))) - surface.f0[c]);
+            surface.f0[c] +=
+                strength * (f0_under_clear_coat(std::clamp(surface.f0[c], T(0), T(1))) - surface.f0[c]);
         surface.f90 = f90_from_f0(surface.f0);
     }
     /// The coat's lobe, and what its transmission leaves of `below`; 1/sr.
     Vec3<T> over(const Reflection<T>& r, const Vec3<T>& below) const {
-        return below * clear_coat_transmission(r.NoL, r.NoV, strength) + Vec3<T>(f_clear_coat(r, alpha, strength));
+        return below * clear_coat_transmission(r.NoL, r.NoV, strength) +
+               Vec3<T>(f_clear_coat(r, alpha, strength));
     }
 };
 
-/// A layer of fibres over everything before it, as KHR_materials_sheen has it. colour in [0, 1] a channel, alpha in (0, 1] the
-/// fibres' own, albedo(cosine, alpha) that of the white lobe with V_charlie (albedo_charlie).
+/// A layer of fibres over everything before it, as KHR_materials_sheen has it. colour in [0, 1] a channel,
+/// alpha in (0, 1] the fibres' own, albedo(cosine, alpha) that of the white lobe with V_charlie
+/// (albedo_charlie).
 template <class T, class Albedo>
 struct Cloth {
     Vec3<T> colour;
     T alpha;
     Albedo albedo;
 
-    /// The fibres' lobe, and what their albedo leaves of `below` on the way in or out, whichever is less; 1/sr. The albedo
-    /// stays at most 1 if that of `below` is.
+    /// The fibres' lobe, and what their albedo leaves of `below` on the way in or out, whichever is less;
+    /// 1/sr. The albedo stays at most 1 if that of `below` is.
     Vec3<T> over(const Reflection<T>& r, const Vec3<T>& below) const {
         const T brightest = std::max({colour.x, colour.y, colour.z});
         const T shadow = brightest * std::max(albedo(r.NoL, alpha), albedo(r.NoV, alpha));
@@ -66,7 +70,8 @@ struct Anisotropy {
     }
 };
 
-/// Turquin's energy compensation: cheap, a white metal's albedo is 1, not reciprocal. albedo(cosine, alpha) is E.
+/// Turquin's energy compensation: cheap, a white metal's albedo is 1, not reciprocal. albedo(cosine, alpha)
+/// is E.
 template <class T, class Albedo>
 struct EnergyCompensation {
     Albedo albedo;
@@ -77,8 +82,8 @@ struct EnergyCompensation {
     }
 };
 
-/// Kulla & Conty's lobe of multiple scattering: a white metal's albedo is 1. albedo(cosine, alpha) is E, E_avg its mean at
-/// the surface's alpha.
+/// Kulla & Conty's lobe of multiple scattering: a white metal's albedo is 1. albedo(cosine, alpha) is E,
+/// E_avg its mean at the surface's alpha.
 template <class T, class Albedo>
 struct MultipleScattering {
     Albedo albedo;

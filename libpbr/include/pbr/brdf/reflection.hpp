@@ -8,8 +8,8 @@
 
 namespace pbr {
 
-/// A pair of directions in the frame of the surface (normal +z, tangent +x), both pointing away from it, and what BRDFs
-/// take from them.
+/// A pair of directions in the frame of the surface (normal +z, tangent +x), both pointing away from it, and
+/// what BRDFs take from them.
 template <class T>
 struct Reflection {
     Vec3<T> wo;  ///< towards the eye
@@ -23,9 +23,9 @@ struct Reflection {
     T sin2;  ///< 1 - NoH^2, from the tangential part: no cancellation beside the normal
 };
 
-/// The reflection of unit vectors wo and wi with wo.z, wi.z in [0, 1]. Antiparallel directions (both at grazing incidence)
-/// have NoH = 1, LoH = 0. Absolute error of every member below 4 ulp of 1 while |wo + wi| > .1; below, the half vector's
-/// direction loses 1 / |wo + wi|.
+/// The reflection of unit vectors wo and wi with wo.z, wi.z in [0, 1]. Antiparallel directions (both at
+/// grazing incidence) have NoH = 1, LoH = 0. Absolute error of every member below 4 ulp of 1 while |wo + wi|
+/// > .1; below, the half vector's direction loses 1 / |wo + wi|.
 template <class T>
 Reflection<T> reflection(const Vec3<T>& wo, const Vec3<T>& wi) {
     const Vec3<T> sum = wo + wi;

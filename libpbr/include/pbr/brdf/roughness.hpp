@@ -20,8 +20,8 @@ constexpr T perceptual_roughness_from_smoothness(T smoothness) {
     return T(1) - smoothness;
 }
 
-/// Inverse of alpha_from_perceptual_roughness, sqrt(alpha). Domain [0, 1], range [0, 1], ends kept; exact to one
-/// rounding.
+/// Inverse of alpha_from_perceptual_roughness, sqrt(alpha). Domain [0, 1], range [0, 1], ends kept; exact to
+/// one rounding.
 template <class T>
 T perceptual_roughness_from_alpha(T alpha);
 
