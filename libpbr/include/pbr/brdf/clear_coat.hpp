@@ -41,7 +41,7 @@ T f_clear_coat(const Reflection<T>& r, T alpha, T strength) {
 /// What the coat leaves to the base: (1 - F(NoL)) (1 - F(NoV)), once through on the way in and once on the
 /// way out. In [0, 1], reciprocal, 1 at strength 0, 0 at strength 1 and grazing. Light reflected back down
 /// inside the coat is lost, and a rough coat shadows as much as a sharp one though it reflects less: over a
-/// white Lambertian base the whole has an albedo of .90 to .96 for sharp coats, down to .12 for alpha 1 at
+/// white Lambertian base the whole has an albedo of .90 to 1 for sharp coats, down to .12 for alpha 1 at
 /// grazing view; never above 1.
 template <class T>
 constexpr T clear_coat_transmission(T NoL, T NoV, T strength) {
