@@ -72,7 +72,7 @@ constexpr Colour f_eon_from_g(const Colour& rho, T diffuse_roughness, T NoL, T N
 
 /// EON, 1/sr, with the exact albedo. rho in [0, 1] a channel, diffuse_roughness, NoL, NoV in [0, 1], LoV in
 /// [-1, 1]. Lambert at roughness 0. Reciprocal; albedo 1 at rho 1, below 1 else; no bound on its value in
-/// retroreflection at grazing angles, r / (pi max(NoL, NoV)), though times NoL it is at most 1 / pi. At NoL =
+/// retroreflection at grazing angles, r / (pi max(NoL, NoV)), though times NoL it is at most .37. At NoL =
 /// NoV = 0 the quotient's denominator is left out. Absolute error below 32 ulp of the larger of 1 and that
 /// value.
 template <class Colour, class T>
