@@ -103,7 +103,7 @@ class Scanner {
     void check() {
         static const std::regex function(R"(([A-Za-z_]\w*|operator\s*[^\s(]+)\s*\()");
         static const std::regex exempt(
-            R"(^(using|static_assert|typedef|friend|return|if|for)\b|=\s*(default|delete)$)");
+            R"(^(using|static_assert|typedef|return|if|for)\b|=\s*(default|delete)$)");
         std::string text = std::regex_replace(statement_, std::regex(R"(\s+$)"), "");
         std::smatch match;
         if (scope() != Scope::open || std::regex_search(text, exempt)) return;
@@ -116,7 +116,9 @@ class Scanner {
             return;  // defined elsewhere
         const std::string name = match[1];
         ++functions_;
-        if (!documented_ && name != previous_) undocumented_.push_back(std::to_string(line_) + ": " + name);
+        const auto is_operator = [](const std::string& f) { return f.rfind("operator", 0) == 0; };
+        const bool shares = name == previous_ || (is_operator(name) && is_operator(previous_));
+        if (!documented_ && !shares) undocumented_.push_back(std::to_string(line_) + ": " + name);
         previous_ = name;
     }
 
@@ -179,6 +181,12 @@ TEST(Docstrings, ScannerLetsOverloadsShareOne) {
     EXPECT_THAT(undocumented("/// Doc.\nint f(int a);\nint f(double a);\n"), testing::IsEmpty());
     EXPECT_THAT(undocumented("/// Doc.\nint f(int a);\n\nint f(double a);\n"), testing::ElementsAre("4: f"));
     EXPECT_THAT(undocumented("/// Doc.\nint f(int a);\nint g(double a);\n"), testing::ElementsAre("3: g"));
+}
+
+TEST(Docstrings, ScannerLetsOperatorsShareOne) {
+    EXPECT_THAT(undocumented("/// Doc.\nA operator+(A, A);\nfriend A operator-(A, A);\n"),
+                testing::IsEmpty());
+    EXPECT_THAT(undocumented("friend A operator-(A, A);\n"), testing::ElementsAre("1: operator-"));
 }
 
 TEST(Docstrings, ScannerSeesWhatIsPublicInClasses) {

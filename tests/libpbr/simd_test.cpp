@@ -8,6 +8,7 @@
 
 #include "pbr/ibl/dfg.hpp"
 #include "pbr/ibl/ld.hpp"
+#include "pbr/ibl/ld_harmonic.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbr {
@@ -28,7 +29,7 @@ class OneTarget {
 
 struct Results {
     std::vector<double> dfg, exact;
-    std::vector<float> sampled;
+    std::vector<float> sampled, harmonic;
     bool operator==(const Results&) const = default;
 };
 
@@ -60,6 +61,10 @@ Results run_kernels() {
     results.exact.resize(150);
     std::uint64_t evaluations = 0;
     ld_exact(PatchBlocks(CubeView{cube.data(), 16}), 0.2, directions, results.exact, evaluations);
+    results.harmonic.resize(150);
+    LdHarmonic(CubeView{cube.data(), 16}, 0.05, 1e-3, for_each_in_turn)
+        .level(0.05, for_each_in_turn)
+        .integrate(directions, results.harmonic);
     return results;
 }
 
@@ -72,6 +77,7 @@ TEST(Simd, EveryVectorWidthGivesTheSameBits) {
         EXPECT_EQ(results.dfg, widest.dfg) << hwy::TargetName(target);
         EXPECT_EQ(results.sampled, widest.sampled) << hwy::TargetName(target);
         EXPECT_EQ(results.exact, widest.exact) << hwy::TargetName(target);
+        EXPECT_EQ(results.harmonic, widest.harmonic) << hwy::TargetName(target);
         ++compared;
     }
     EXPECT_GE(compared, 2);  // else no second width was there to compare

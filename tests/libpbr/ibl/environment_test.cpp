@@ -94,6 +94,46 @@ TEST(Equirect, AreaResamplingAgreesWithBruteForceSubdivision) {
     }
 }
 
+/// Frames in which the picture's axis is an axis of the cube, and one in which it isn't.
+std::vector<glm::dmat3> frames() {
+    const double c = std::cos(0.3), s = std::sin(0.3);
+    return {glm::dmat3(1),
+            glm::dmat3(c, 0, -s, 0, 1, 0, s, 0, c),
+            glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1),
+            glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0),
+            glm::dmat3(c, 0, -s, 0, 1, 0, s, 0, c) * glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0),
+            glm::dmat3(1, 0, 0, 0, c, s, 0, -s, c)};
+}
+
+TEST(Equirect, AWholeCubeAtOnceHasTheMeansOfItsRows) {
+    for (const glm::dmat3& frame : frames())
+        for (const auto& [width, height, size] : {std::tuple{256, 128, 32},
+                                                  {128, 64, 33},
+                                                  {100, 50, 7},
+                                                  {200, 101, 1},
+                                                  {64, 32, 64},
+                                                  {16, 8, 5},
+                                                  {1, 1, 3}}) {
+            const std::vector<float> picture = noise(width * height);
+            const EquirectView view{picture.data(), width, height, frame};
+            std::vector<float> whole(static_cast<std::size_t>(size) * size * 18);
+            resample_area(view, size, for_each_in_turn, whole);
+            const std::vector<float> rows = resample_all(view, size);
+            double squared = 0, largest = 0;
+            for (std::size_t i = 0; i < whole.size(); ++i) {
+                const double error = std::abs(static_cast<double>(whole[i]) - static_cast<double>(rows[i]));
+                squared += error * error;
+                largest = std::max(largest, error);
+            }
+            EXPECT_LT(std::sqrt(squared / static_cast<double>(whole.size())), 1.1e-3)
+                << width << " to " << size;
+            EXPECT_LT(largest, 2.5e-2) << width << " to " << size;
+            const std::vector<float> constant(picture.size(), 0.7f);
+            resample_area({constant.data(), width, height, frame}, size, for_each_in_turn, whole);
+            for (const float value : whole) ASSERT_EQ(value, 0.7f);
+        }
+}
+
 TEST(Equirect, ResamplingIsContinuousAtSeamAndPoles) {
     // A smooth picture stays smooth: texels on both sides of the seam (behind, -z) and around the poles
     // differ little.

@@ -1,0 +1,177 @@
+#include "pbr/ibl/harmonic_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
+
+#include "libpbr/src/simd/legendre_kernel.hpp"
+#include "pbr/ibl/patches.hpp"
+#include "pbr/ibl/spherical_harmonics.hpp"
+#include "pbr/ibl/zonal_harmonics.hpp"
+#include "pbr/ibl/zonal_kernel.hpp"
+#include "pbr/numerics/quadrature.hpp"
+#include "pbr/numerics/sequence.hpp"
+#include "tests/libpbr/ibl/pictures.hpp"
+
+namespace pbr {
+namespace {
+
+/// The sum over orders and channels of squared coefficients of a degree, by the real harmonics of
+/// ibl/spherical_harmonics.hpp summed over points of the picture: what no rotation or choice of basis
+/// changes.
+std::vector<double> power_by_points(const PatchBlocks& blocks, int bands) {
+    std::vector<double> sums(static_cast<std::size_t>(bands) * bands * 3),
+        basis(static_cast<std::size_t>(bands) * bands);
+    for (int block = 0; block < blocks.count(); ++block) {
+        PatchPoints points;
+        blocks.points(block, 4, points);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Vec3<double> d(points.x[i], points.y[i], points.z[i]);
+            sh_evaluate<double>(bands, glm::normalize(d), basis);
+            for (std::size_t k = 0; k < basis.size(); ++k) {
+                const double weight = basis[k] * static_cast<double>(points.weight[i]);
+                sums[k * 3] += weight * static_cast<double>(points.r[i]);
+                sums[k * 3 + 1] += weight * static_cast<double>(points.g[i]);
+                sums[k * 3 + 2] += weight * static_cast<double>(points.b[i]);
+            }
+        }
+    }
+    std::vector<double> power;
+    for (int l = 0; l < bands; ++l) {
+        power.push_back(0);
+        for (int k = l * l; k < (l + 1) * (l + 1); ++k)
+            for (int c = 0; c < 3; ++c) power.back() += sums[k * 3 + c] * sums[k * 3 + c];
+    }
+    return power;
+}
+
+TEST(HarmonicSpectrum, HasThePowerThatRealHarmonicsFindAtPoints) {
+    for (const auto& [width, height] : {std::pair{64, 32}, {37, 19}, {40, 21}}) {
+        const std::vector<float> picture = noise_picture(width, height);
+        const EquirectView view{picture.data(), width, height};
+        const HarmonicSpectrum spectrum(view, 15, 6, for_each_in_turn);
+        const std::vector<double> expected = power_by_points(PatchBlocks(view), 16);
+        for (int l = 0; l <= 15; ++l)
+            EXPECT_NEAR(spectrum.power(l) / expected[l], 1, 1e-6) << width << " " << l;
+    }
+}
+
+TEST(HarmonicSpectrum, OfACubeHasTheSamePowerToo) {
+    const std::vector<float> cube = noise_cube(16);
+    const CubeView view{cube.data(), 16};
+    const HarmonicSpectrum spectrum(view, 40, 3, for_each_in_turn);
+    const std::vector<double> expected = power_by_points(PatchBlocks(view), 16);
+    for (int l = 0; l <= 15; ++l) EXPECT_NEAR(spectrum.power(l) / expected[l], 1, 1e-4) << l;
+}
+
+TEST(HarmonicSpectrum, OfOneTexelIsThatOfAPointWhereverItLies) {
+    // |E_lm|^2 summed over m is flux^2 (2l + 1) / 4 pi for a point; a texel of height h lowers it by about (l
+    // h)^2 / 12.
+    for (const int y : {0, 1, 40, 127, 128, 255}) {
+        std::vector<float> picture(std::size_t{512} * 256 * 3);
+        picture[(static_cast<std::size_t>(y) * 512 + 77) * 3] = 1e6f;
+        const HarmonicSpectrum spectrum({picture.data(), 512, 256}, 30, 2, for_each_in_turn);
+        const double flux = 1e6 * equirect_texel_solid_angle(512, 256, y);
+        for (int l = 0; l <= 30; ++l) {
+            const double lost = std::pow(l * std::numbers::pi / 256, 2);
+            EXPECT_NEAR(spectrum.power(l) / (flux * flux * (2 * l + 1) / (4 * std::numbers::pi)), 1,
+                        lost + 1e-9)
+                << y << " " << l;
+        }
+    }
+}
+
+TEST(HarmonicSpectrum, LeavesOutTheTexelsItIsTold) {
+    std::vector<float> picture = noise_picture(32, 16);
+    std::vector<float> without = picture;
+    const std::vector<CubeTexel> texels{{0, 3, 2}, {0, 30, 2}, {0, 7, 13}};
+    for (const CubeTexel& texel : texels)
+        for (std::size_t c = 0; c < 3; ++c)
+            without[(static_cast<std::size_t>(texel.y) * 32 + texel.x) * 3 + c] = 0;
+    const HarmonicSpectrum a({picture.data(), 32, 16}, 8, 1, for_each_in_turn, texels);
+    const HarmonicSpectrum b({without.data(), 32, 16}, 8, 1, for_each_in_turn);
+    for (int m = 0; m <= 8; ++m)
+        for (std::size_t i = 0; i < a.of_order(m).size(); ++i) EXPECT_EQ(a.of_order(m)[i], b.of_order(m)[i]);
+}
+
+/// The field with coefficients kernel[l] E_lm, by the standard library's harmonics.
+glm::dvec3 field_of(const HarmonicSpectrum& spectrum, const std::vector<double>& kernel,
+                    const glm::dvec3& direction) {
+    const glm::dvec2 at = equirect_point(spectrum.world_to_source() * direction);
+    glm::dvec3 sum(0);
+    for (unsigned l = 0; l < kernel.size(); ++l)
+        for (unsigned m = 0; m <= l; ++m) {
+            // std::sph_legendre has the Condon-Shortley phase, the spectrum doesn't.
+            const double p =
+                std::sph_legendre(l, m, std::numbers::pi * at.y) * (m % 2 == 0 ? 1 : -1) * (m == 0 ? 1 : 2);
+            const double azimuth = 2 * std::numbers::pi * m * at.x;
+            const auto c = spectrum.coefficient(static_cast<int>(l), static_cast<int>(m));
+            for (int k = 0; k < 3; ++k)
+                sum[k] += kernel[l] * p * (c[2 * k] * std::cos(azimuth) - c[2 * k + 1] * std::sin(azimuth));
+        }
+    return sum;
+}
+
+TEST(HarmonicGrid, IsTheSumOfHarmonics) {
+    const std::vector<float> picture = noise_picture(48, 25);
+    const double t = 0.7;
+    const glm::dmat3 turn(std::cos(t), 0, -std::sin(t), 0, 1, 0, std::sin(t), 0, std::cos(t));
+    const HarmonicSpectrum spectrum({picture.data(), 48, 25, turn}, 30, 2, for_each_in_turn);
+    const std::vector<double> kernel = zonal_ggx(GgxZonalKernel(0.15), 31);
+    const HarmonicGrid grid(spectrum, kernel, for_each_in_turn);
+    std::vector<glm::dvec3> directions{{0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {1e-9, 0, -1}, {1e-6, -1, 1e-6}};
+    for (int i = 0; i < 300; ++i) directions.push_back(random_direction(3, i));
+    for (const glm::dvec3& d : directions) {
+        const std::array<float, 3> found = grid.sample(glm::normalize(d));
+        const glm::dvec3 expected = field_of(spectrum, kernel, glm::normalize(d));
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / expected[c], 1, 2e-5);
+    }
+}
+
+TEST(LegendreSums, RoundTripOnGaussRingsAtHighOrders) {
+    // Coefficients -> rings of a Gauss rule -> coefficients is the identity. sin^m underflows here from m =
+    // 700 on.
+    constexpr int kBands = 1800;
+    const QuadratureRule rule = gauss_legendre(kBands + 2);
+    std::vector<double> colatitudes, weights;
+    for (int i = 0; i < rule.size() / 2; ++i) {
+        colatitudes.push_back(2 * std::asin(std::sqrt(rule.nodes[i])));
+        // dmu = 2 dnode with nodes (1 - mu) / 2; analysis takes sums of both hemispheres, twice what synthesis
+        // gives.
+        weights.push_back(8 * std::numbers::pi * rule.weights[i]);
+    }
+    const Rings rings(colatitudes);
+    for (const int order : {0, 1, 2, 17, 700, 900, 1500, 1799, 1800}) {
+        const LegendreOrder legendre(order, kBands);
+        const std::size_t values = static_cast<std::size_t>(kParts) * rings.padded();
+        std::vector<double> given(static_cast<std::size_t>(legendre.degrees()) * kParts), found(given.size());
+        for (std::size_t i = 0; i < given.size(); ++i) given[i] = random_unit(9, order, i) - 0.5;
+        std::vector<double> even(values), odd(values);
+        const int first = rings.first(order, kBands);
+        legendre_synthesise(rings, legendre, first, given.data(), even.data(), odd.data());
+        for (std::size_t part = 0; part < static_cast<std::size_t>(kParts); ++part)
+            for (int i = 0; i < rings.padded(); ++i) {
+                const double weight = static_cast<std::size_t>(i) < weights.size() ? weights[i] : 0;
+                even[part * rings.padded() + i] *= weight;
+                odd[part * rings.padded() + i] *= weight;
+            }
+        legendre_analyse(rings, legendre, first, even.data(), odd.data(), found.data());
+        double largest = 0;
+        for (std::size_t i = 0; i < given.size(); ++i)
+            largest = std::max(largest, std::abs(found[i] - given[i]));
+        EXPECT_LT(largest, 1e-11) << order;
+    }
+}
+
+TEST(PointsARow, GrowAsLobesNarrow) {
+    EXPECT_EQ(points_a_row(1024, 0.04, 1e-3), 1);
+    EXPECT_GE(points_a_row(256, 0.04, 1e-3), 2);
+    for (double alpha = 1; alpha > 1e-4; alpha /= 2)
+        EXPECT_LE(points_a_row(512, alpha, 1e-3), points_a_row(512, alpha / 2, 1e-3));
+}
+
+}  // namespace
+}  // namespace pbr

@@ -1,0 +1,235 @@
+#include "pbr/ibl/ld_harmonic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "pbr/ibl/ld.hpp"
+#include "tests/libpbr/ibl/pictures.hpp"
+
+namespace pbr {
+namespace {
+
+struct Picture {
+    std::string name;
+    int width;
+    std::vector<float> rgb;
+    EquirectView view() const { return {rgb.data(), width, width / 2}; }
+};
+
+void add_texel(Picture& picture, int x, int y, float value) {
+    for (std::size_t c = 0; c < 3; ++c)
+        picture.rgb[(static_cast<std::size_t>(y) * picture.width + x) * 3 + c] += value;
+}
+
+Picture sky(const std::string& name, int sun_x, int sun_y, float sun) {
+    Picture picture{name, 256, picture_of(256, 128, [](const glm::dvec3& d) {
+                        return d.y > 0 ? glm::dvec3(0.5 + d.y, 0.8, 1.2) : glm::dvec3(0.2, 0.15, 0.1);
+                    })};
+    add_texel(picture, sun_x, sun_y, sun);
+    return picture;
+}
+
+std::vector<Picture> pictures() {
+    std::vector<Picture> all{{"noise", 256, noise_picture(256, 128)}};
+    all.push_back({"stripes", 256, picture_of(256, 128, [](const glm::dvec3& d) {
+                       const int column = static_cast<int>(equirect_point(d).x * 256);
+                       return glm::dvec3(column % 2);
+                   })});
+    all.push_back(sky("sun high", 100, 30, 1e7f));
+    all.push_back(sky("sun at the pole", 5, 0, 1e9f));
+    all.push_back(sky("sun at the horizon", 255, 64, 1e6f));
+    Picture lamps{"a hundred lamps", 256, std::vector<float>(std::size_t{256} * 128 * 3, 0.1f)};
+    for (int i = 0; i < 100; ++i)
+        add_texel(lamps, static_cast<int>(256 * random_unit(7, i, 0)),
+                  static_cast<int>(128 * random_unit(7, i, 1)), 300);
+    all.push_back(lamps);
+    return all;
+}
+
+struct Errors {
+    double rms;      ///< over the mean
+    double largest;  ///< over the largest value
+    double lowest;   ///< value
+};
+
+Errors errors(const LdHarmonic& harmonic, const PatchBlocks& blocks, double alpha) {
+    std::vector<glm::dvec3> directions;
+    for (int i = 0; i < 320; ++i) directions.push_back(random_direction(11, i));
+    std::vector<double> truth(directions.size() * 3);
+    std::uint64_t evaluations = 0;
+    ld_exact(blocks, alpha, directions, truth, evaluations);
+    std::vector<float> found(truth.size());
+    harmonic.level(alpha, for_each_in_turn).integrate(directions, found);
+    double squared = 0, mean = 0, largest = 0, peak = 0, lowest = 1e300;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const double error = std::abs(static_cast<double>(found[i]) - truth[i]);
+        squared += error * error;
+        mean += truth[i];
+        largest = std::max(largest, error);
+        peak = std::max(peak, truth[i]);
+        lowest = std::min(lowest, static_cast<double>(found[i]));
+    }
+    return {std::sqrt(squared * static_cast<double>(truth.size())) / mean, largest / peak, lowest};
+}
+
+TEST(LdHarmonic, MeetsTheErrorAskedForOnHardPictures) {
+    for (const Picture& picture : pictures()) {
+        const PatchBlocks blocks(picture.view());
+        for (const double max_error : {1e-2, 1e-3, 1e-4}) {
+            const LdHarmonic harmonic(picture.view(), 0.04, max_error, for_each_in_turn);
+            for (const double alpha : {0.04, 0.16, 0.36, 1.0}) {
+                const Errors found = errors(harmonic, blocks, alpha);
+                EXPECT_LT(found.rms, max_error) << picture.name << " " << alpha;
+                EXPECT_GE(found.lowest, 0);
+            }
+        }
+    }
+}
+
+TEST(LdHarmonic, ResolvesNarrowLobes) {
+    const Picture picture = sky("sun", 100, 30, 1e6f);
+    const PatchBlocks blocks(picture.view());
+    for (const double alpha : {0.0036, 0.01}) {
+        const LdHarmonic harmonic(picture.view(), alpha, 1e-3, for_each_in_turn);
+        EXPECT_LT(errors(harmonic, blocks, alpha).rms, 1e-3) << alpha;
+    }
+}
+
+TEST(LdHarmonic, OfACubeMeetsTheErrorToo) {
+    std::vector<float> cube = noise_cube(32);
+    cube[100] = 1e6f;                    // a sun in the middle of a face
+    cube[0] = cube[1] = cube[2] = 1e5f;  // and one at a corner
+    const CubeView view{cube.data(), 32};
+    const PatchBlocks blocks(view);
+    for (const double max_error : {1e-2, 1e-3}) {
+        const LdHarmonic harmonic(view, 0.04, max_error, for_each_in_turn);
+        EXPECT_EQ(harmonic.bright_texels(), 2);
+        for (const double alpha : {0.04, 0.36, 1.0})
+            EXPECT_LT(errors(harmonic, blocks, alpha).rms, max_error) << alpha;
+    }
+}
+
+std::vector<float> filtered(const LdHarmonic& harmonic, double alpha,
+                            const std::vector<glm::dvec3>& directions) {
+    std::vector<float> rgb(directions.size() * 3);
+    harmonic.level(alpha, for_each_in_turn).integrate(directions, rgb);
+    return rgb;
+}
+
+TEST(LdHarmonic, TurnsWithACubeTurnedByAQuarter) {
+    const std::vector<float> cube = noise_cube(16);
+    const auto turned = [](const glm::dvec3& d) { return glm::dvec3(d.x, -d.z, d.y); };  // about x
+    std::vector<float> cube_turned(cube.size());
+    for (int i = 0; i < 6 * 16 * 16; ++i) {
+        const CubeTexel to{i / 256, i % 16, i / 16 % 16},
+            from = cubemap_texel(turned(cubemap_texel_direction(to, 16)), 16);
+        for (int c = 0; c < 3; ++c)
+            cube_turned[i * 3 + c] = cube[((from.face * 16 + from.y) * 16 + from.x) * 3 + c];
+    }
+    std::vector<glm::dvec3> directions, directions_turned;
+    for (int i = 0; i < 200; ++i) {
+        directions.push_back(random_direction(2, i));
+        directions_turned.push_back(turned(directions.back()));
+    }
+    for (const double alpha : {0.04, 0.5}) {
+        const std::vector<float> a =
+            filtered({CubeView{cube_turned.data(), 16}, 0.04, 1e-4, for_each_in_turn}, alpha, directions);
+        const std::vector<float> b =
+            filtered({CubeView{cube.data(), 16}, 0.04, 1e-4, for_each_in_turn}, alpha, directions_turned);
+        for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5f);
+    }
+}
+
+TEST(LdHarmonic, TurnsWithAnEquirectTurnedByWholeTexels) {
+    const std::vector<float> picture = noise_picture(64, 32);
+    std::vector<float> moved(picture.size());
+    constexpr int kBy = 13;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x)
+            std::copy_n(&picture[(static_cast<std::size_t>(y) * 64 + x) * 3], 3,
+                        &moved[(static_cast<std::size_t>(y) * 64 + (x + kBy) % 64) * 3]);
+    const double angle = 2 * std::numbers::pi * kBy / 64;
+    std::vector<glm::dvec3> directions, directions_moved;
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 d = random_direction(2, i);
+        directions.push_back(d);  // u grows where longitude atan2(x, z) falls
+        directions_moved.push_back({std::cos(angle) * d.x - std::sin(angle) * d.z, d.y,
+                                    std::sin(angle) * d.x + std::cos(angle) * d.z});
+    }
+    const std::vector<float> a =
+        filtered({EquirectView{picture.data(), 64, 32}, 0.1, 1e-4, for_each_in_turn}, 0.1, directions);
+    const std::vector<float> b =
+        filtered({EquirectView{moved.data(), 64, 32}, 0.1, 1e-4, for_each_in_turn}, 0.1, directions_moved);
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-5f);
+}
+
+TEST(LdHarmonic, IsLinear) {
+    const std::vector<float> a = noise_picture(64, 32, 1), b = noise_picture(64, 32, 2);
+    std::vector<float> sum(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) sum[i] = a[i] + b[i];
+    std::vector<glm::dvec3> directions;
+    for (int i = 0; i < 200; ++i) directions.push_back(random_direction(2, i));
+    const auto of = [&](const std::vector<float>& picture) {
+        return filtered({EquirectView{picture.data(), 64, 32}, 0.1, 1e-4, for_each_in_turn}, 0.1, directions);
+    };
+    const std::vector<float> fa = of(a), fb = of(b), fsum = of(sum);
+    for (std::size_t i = 0; i < fa.size(); ++i) EXPECT_NEAR(fa[i] + fb[i], fsum[i], 3e-4f);
+}
+
+TEST(LdHarmonic, KeepsAConstantConstantAndBlackBlack) {
+    for (const float value : {0.0f, 1e-20f, 0.7f, 1e30f})
+        for (const int width : {1, 2, 3, 8, 50}) {
+            const int height = std::max(1, width / 2);
+            const std::vector<float> picture(static_cast<std::size_t>(width) * height * 3, value);
+            const LdHarmonic harmonic(EquirectView{picture.data(), width, height}, 0.2, 1e-4,
+                                      for_each_in_turn);
+            for (const float found : filtered(harmonic, 0.2, {{1, 0, 0}, {0, 1, 0}, {0.6, 0, 0.8}}))
+                EXPECT_NEAR(found, value, value * 2e-6f) << width;
+        }
+}
+
+TEST(LdHarmonic, StaysFiniteWithTheLargestTexel) {
+    Picture picture{"huge", 64, noise_picture(64, 32)};
+    add_texel(picture, 20, 10, 3e38f);
+    const LdHarmonic harmonic(picture.view(), 0.04, 1e-3, for_each_in_turn);
+    const PatchBlocks blocks(picture.view());
+    for (const double alpha : {0.04, 1.0}) EXPECT_LT(errors(harmonic, blocks, alpha).rms, 1e-3);
+    // Where the sun is below the horizon of every lobe, the rest is seen as if it weren't there.
+    const glm::dvec3 away = -equirect_direction(20.5 / 64, 10.5 / 32);
+    const std::vector<float> dark = filtered(harmonic, 0.16, {away});
+    EXPECT_GT(dark[0], 0.3f);
+    EXPECT_LT(dark[0], 0.7f);
+}
+
+TEST(LdHarmonic, DoesNotDependOnTheOrderOfItsTasks) {
+    const std::vector<float> picture = noise_picture(96, 48);
+    const ForEach backwards = [](int count, const std::function<void(int)>& body) {
+        for (int i = count - 1; i >= 0; --i) body(i);
+    };
+    const std::vector<glm::dvec3> directions{{1, 0, 0}, {0, 1, 0}, {0.6, 0, 0.8}};
+    const LdHarmonic a(EquirectView{picture.data(), 96, 48}, 0.1, 1e-3, for_each_in_turn);
+    const LdHarmonic b(EquirectView{picture.data(), 96, 48}, 0.1, 1e-3, backwards);
+    std::vector<float> from_a(9), from_b(9);
+    a.level(0.1, for_each_in_turn).integrate(directions, from_a);
+    b.level(0.1, backwards).integrate(directions, from_b);
+    EXPECT_EQ(from_a, from_b);
+}
+
+TEST(LdHarmonic, SaysWhatItLeftOut) {
+    const std::vector<float> picture = noise_picture(64, 32);
+    const LdHarmonic harmonic(EquirectView{picture.data(), 64, 32}, 0.04, 1e-3, for_each_in_turn);
+    EXPECT_GE(harmonic.bands(), LdHarmonic::bands_for(0.04, 1e-3));
+    const LdHarmonic::Level level = harmonic.level(1, for_each_in_turn);
+    EXPECT_LT(level.bands(), harmonic.bands() / 4);  // a wide lobe of noise needs few degrees
+    EXPECT_GT(level.truncation_error(), 0);
+    EXPECT_LE(level.truncation_error(), 1e-4);
+}
+
+}  // namespace
+}  // namespace pbr
