@@ -31,14 +31,20 @@ const float* rgb_of(const CubeView& source, const CubeTexel& texel) {
     return source.texel(texel.face, texel.x, texel.y);
 }
 
-/// Solid angles; a cube map's by the density at the centre, which is near enough to choose texels by.
-double solid_angle_of(const EquirectView& source, const CubeTexel& texel) {
-    return equirect_texel_solid_angle(source.width, source.height, texel.y);
+/// Solid angles of a row's texels; a cube map's by the density at the centre, which is near enough to choose
+/// texels by.
+std::vector<double> solid_angles(const EquirectView& source, int row) {
+    return std::vector<double>(static_cast<std::size_t>(source.width),
+                               equirect_texel_solid_angle(source.width, source.height, row));
 }
-double solid_angle_of(const CubeView& source, const CubeTexel& texel) {
-    const double s = cube_coordinate(texel.x, source.size), t = cube_coordinate(texel.y, source.size);
-    const double q = 1 + s * s + t * t;
-    return 4.0 / source.size / source.size / (q * std::sqrt(q));
+std::vector<double> solid_angles(const CubeView& source, int row) {
+    std::vector<double> result;
+    const double t = cube_coordinate(row % source.size, source.size);
+    for (int x = 0; x < source.size; ++x) {
+        const double s = cube_coordinate(x, source.size), q = 1 + s * s + t * t;
+        result.push_back(4.0 / source.size / source.size / (q * std::sqrt(q)));
+    }
+    return result;
 }
 
 struct RowLight {
@@ -49,15 +55,13 @@ struct RowLight {
 template <class View>
 RowLight light_of_row(const View& source, int row) {
     RowLight light;
-    for (int x = 0; x < row_width(source); ++x) {
-        const CubeTexel texel = texel_of(source, row, x);
-        const double solid_angle = solid_angle_of(source, texel);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float value = rgb_of(source, texel)[c];
-            light.flux[c] += solid_angle * static_cast<double>(value);
-            light.largest[c] = std::max(light.largest[c], value);
+    const std::vector<double> weights = solid_angles(source, row);
+    const float* rgb = rgb_of(source, texel_of(source, row, 0));
+    for (const double solid_angle : weights)
+        for (std::size_t c = 0; c < 3; ++c, ++rgb) {
+            light.flux[c] += solid_angle * static_cast<double>(*rgb);
+            light.largest[c] = std::max(light.largest[c], *rgb);
         }
-    }
     return light;
 }
 
@@ -71,21 +75,25 @@ std::vector<CubeTexel> find_bright_texels(const View& source, const ForEach& eac
     for (const RowLight& row : rows)
         for (std::size_t c = 0; c < 3; ++c) flux[c] += row.flux[c];
     std::vector<CubeTexel> bright;
-    for (int row = 0; row < row_count(source); ++row)
+    for (int row = 0; row < row_count(source); ++row) {
+        const auto exceeds_mean = [&](std::size_t c, double value) {
+            return value > kBrightOverMean * flux[c] / (4 * std::numbers::pi);
+        };
+        const std::array<float, 3>& largest = rows[static_cast<std::size_t>(row)].largest;
+        if (!exceeds_mean(0, largest[0]) && !exceeds_mean(1, largest[1]) && !exceeds_mean(2, largest[2]))
+            continue;
+        const std::vector<double> weights = solid_angles(source, row);
         for (int x = 0; x < row_width(source); ++x) {
             const CubeTexel texel = texel_of(source, row, x);
-            const double solid_angle = solid_angle_of(source, texel);
-            bool of_row = false, of_texel = false;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const double value = static_cast<double>(rgb_of(source, texel)[c]);
-                const double mean = flux[c] / (4 * std::numbers::pi);
-                of_texel |= value * solid_angle > kBrightShare * flux[c] && value > kBrightOverMean * mean;
-                of_row |= static_cast<double>(rows[static_cast<std::size_t>(row)].largest[c]) >
-                          kBrightOverMean * mean;
-            }
-            if (!of_row) break;
-            if (of_texel) bright.push_back(texel);
+            const float* rgb = rgb_of(source, texel);
+            const auto is_bright = [&](std::size_t c) {
+                return exceeds_mean(c, rgb[c]) &&
+                       static_cast<double>(rgb[c]) * weights[static_cast<std::size_t>(x)] >
+                           kBrightShare * flux[c];
+            };
+            if (is_bright(0) || is_bright(1) || is_bright(2)) bright.push_back(texel);
         }
+    }
     return bright;
 }
 

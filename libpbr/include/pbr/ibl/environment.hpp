@@ -57,7 +57,7 @@ void resample_area(const EquirectView& source, int size, int face, int y, std::s
 
 /// All faces at once, in rgb_out[((face * size + y) * size + x) * 3], four to five times faster where
 /// world_to_source takes the picture's vertical axis to an axis of the cube. By two points between columns:
-/// error 1e-3 root mean square, 2e-2 at most.
+/// error 1.2e-3 root mean square, 2.5e-2 at most.
 void resample_area(const EquirectView& source, int size, const ForEach& each, std::span<float> rgb_out);
 
 /// The same for a cube map of another size: exact.
