@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/fourier.hpp"
@@ -19,16 +20,63 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kElement = 2 * kFourierLanes;
 
-/// Rings of a picture, with the integral over each constant texel: its sinc, from the first texel's centre
-/// on.
-RingSource rings_of(const EquirectView& source, int bands, std::span<const CubeTexel> without) {
+/// The texels of a sorted list that lie in a row.
+std::span<const CubeTexel> in_row(std::span<const CubeTexel> texels, int face, int y) {
+    const auto range = std::equal_range(texels.begin(), texels.end(), CubeTexel{face, 0, y},
+                                        [](const CubeTexel& p, const CubeTexel& q) {
+                                            return std::pair(p.face, p.y) < std::pair(q.face, q.y);
+                                        });
+    return {range.first, range.second};
+}
+
+/// The sum of a row's texels but those left out; these aren't subtracted afterwards, since they may dwarf the
+/// rest.
+glm::dvec3 row_sum(const float* row, int width, std::span<const CubeTexel> without) {
+    glm::dvec3 sum(0);
+    for (int x = 0; x < width; ++x) {
+        if (!without.empty() && without.front().x == x) {
+            without = without.subspan(1);
+            continue;
+        }
+        for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(row[x * 3 + c]);
+    }
+    return sum;
+}
+
+/// The mean over the sphere. Transforms start from what a picture differs from it, so that a constant one has
+/// no error of quadrature at all.
+glm::dvec3 mean_of(const EquirectView& source, std::span<const CubeTexel> without, const ForEach& each) {
+    std::vector<glm::dvec3> rows(static_cast<std::size_t>(source.height));
+    each(source.height, [&](int y) {
+        rows[static_cast<std::size_t>(y)] = row_sum(source.texel(0, y), source.width, in_row(without, 0, y)) *
+                                            equirect_texel_solid_angle(source.width, source.height, y);
+    });
+    glm::dvec3 flux(0);
+    for (const glm::dvec3& row : rows) flux += row;
+    return flux / (4 * kPi);
+}
+
+/// The same of a cube map, every texel counting alike: near enough, whatever constant is taken out is put
+/// back.
+glm::dvec3 mean_of(const CubeView& source, std::span<const CubeTexel> without) {
+    glm::dvec3 sum(0);
+    for (int row = 0; row < 6 * source.size; ++row) {
+        const int face = row / source.size, y = row % source.size;
+        sum += row_sum(source.texel(face, 0, y), source.size, in_row(without, face, y));
+    }
+    return sum / (6.0 * source.size * source.size);
+}
+
+/// Rings of a picture less its mean, with the integral over each constant texel: its sinc, from the first
+/// texel's centre on.
+RingSource rings_of(const EquirectView& source, const glm::dvec3& mean, int bands,
+                    std::span<const CubeTexel> without) {
     RingSource rings{source.width, source.height, {}, {}};
-    rings.read = [source, without](int y, int channel, double* out) {
+    rings.read = [source, mean, without](int y, int channel, double* out) {
         const float* texel = source.texel(0, y) + channel;
-        for (int x = 0; x < source.width; ++x) out[x * kElement] = static_cast<double>(texel[x * 3]);
-        const auto row = std::equal_range(without.begin(), without.end(), CubeTexel{0, 0, y},
-                                          [](const CubeTexel& p, const CubeTexel& q) { return p.y < q.y; });
-        for (auto bright = row.first; bright != row.second; ++bright) out[bright->x * kElement] = 0;
+        for (int x = 0; x < source.width; ++x)
+            out[x * kElement] = static_cast<double>(texel[x * 3]) - mean[channel];
+        for (const CubeTexel& black : in_row(without, 0, y)) out[black.x * kElement] = -mean[channel];
     };
     for (int m = 0; m <= bands; ++m) {
         const double half = static_cast<double>(m) / source.width;
@@ -84,19 +132,28 @@ HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, int bands, int po
                                    const ForEach& each, std::span<const CubeTexel> without)
     : HarmonicSpectrum(bands, source.world_to_source) {
     assert(points_a_row >= 1);
-    RingModes modes = analyse_rings(rings_of(source, bands, without), each);
+    const glm::dvec3 mean = mean_of(source, without, each);
+    RingModes modes = analyse_rings(rings_of(source, mean, bands, without), each);
     const RowPoints points = row_points(source.height, points_a_row);
     integrate(modes, points.colatitudes_rad, points.weights, points_a_row, each);
+    add_constant(mean);
 }
 
 HarmonicSpectrum::HarmonicSpectrum(const CubeView& source, int bands, int points_a_side, const ForEach& each,
                                    std::span<const CubeTexel> without)
     : HarmonicSpectrum(bands, glm::dmat3(1)) {
     assert(points_a_side >= 1);
-    const SpreadCube grid(source, bands, points_a_side, without, each);
+    const glm::dvec3 mean = mean_of(source, without);
+    const SpreadCube grid(source, mean, bands, points_a_side, without, each);
     RingModes modes = analyse_rings(grid.rings(bands), each);
     integrate(modes, grid.colatitudes_rad(), std::vector<double>(grid.colatitudes_rad().size(), 1.0), 1,
               each);
+    add_constant(mean);
+}
+
+void HarmonicSpectrum::add_constant(const glm::dvec3& value) {
+    for (std::size_t c = 0; c < 3; ++c)
+        coefficients_[2 * c] += value[static_cast<int>(c)] * std::sqrt(4 * kPi);
 }
 
 HarmonicSpectrum::HarmonicSpectrum(int bands, const glm::dmat3& world_to_source)

@@ -18,15 +18,16 @@ struct Point {
     double rgb[3];
 };
 
-/// All points of one row of texels of a face, brightest texels left out.
-void add_points(const CubeView& source, int face, int y, const QuadratureRule& rule, int columns, int rows,
-                std::span<const CubeTexel> without, std::vector<Point>& points) {
+/// All points of one row of texels of a face; the texels left out count as black.
+void add_points(const CubeView& source, const glm::dvec3& constant, int face, int y,
+                const QuadratureRule& rule, int columns, int rows, std::span<const CubeTexel> without,
+                std::vector<Point>& points) {
     const auto [left_out, end] = std::equal_range(without.begin(), without.end(), CubeTexel{face, 0, y},
                                                   [](const CubeTexel& p, const CubeTexel& q) {
                                                       return std::pair(p.face, p.y) < std::pair(q.face, q.y);
                                                   });
     for (int x = 0; x < source.size; ++x) {
-        if (std::any_of(left_out, end, [x](const CubeTexel& texel) { return texel.x == x; })) continue;
+        const bool black = std::any_of(left_out, end, [x](const CubeTexel& texel) { return texel.x == x; });
         const std::size_t first = points.size();
         double sum = 0;
         for (int j = 0; j < rule.size(); ++j)
@@ -49,14 +50,15 @@ void add_points(const CubeView& source, int face, int y, const QuadratureRule& r
         const double solid_angle = cubemap_texel_solid_angle(source.size, x, y);
         for (std::size_t k = first; k < points.size(); ++k) {
             const double flux = points[k].rgb[0] / sum * solid_angle;
-            for (int c = 0; c < 3; ++c) points[k].rgb[c] = flux * static_cast<double>(texel[c]);
+            for (int c = 0; c < 3; ++c)
+                points[k].rgb[c] = flux * ((black ? 0 : static_cast<double>(texel[c])) - constant[c]);
         }
     }
 }
 
 }  // namespace
 
-SpreadCube::SpreadCube(const CubeView& source, int bands, int points_a_side,
+SpreadCube::SpreadCube(const CubeView& source, const glm::dvec3& constant, int bands, int points_a_side,
                        std::span<const CubeTexel> without, const ForEach& each)
     : rows_(grid_rows(bands)),
       columns_(2 * fast_fourier_size(rows_)),
@@ -65,7 +67,7 @@ SpreadCube::SpreadCube(const CubeView& source, int bands, int points_a_side,
     const QuadratureRule rule = gauss_legendre(points_a_side);
     std::vector<std::vector<Point>> of_row(static_cast<std::size_t>(6) * source.size);
     each(6 * source.size, [&](int i) {
-        add_points(source, i / source.size, i % source.size, rule, columns_, rows_, without,
+        add_points(source, constant, i / source.size, i % source.size, rule, columns_, rows_, without,
                    of_row[static_cast<std::size_t>(i)]);
     });
     // By grid rows, in the order of the texels, so that sums don't depend on who computes them.

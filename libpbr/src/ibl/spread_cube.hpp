@@ -10,12 +10,12 @@
 
 namespace pbr {
 
-/// Flux at grid points, by the transpose of Lagrange interpolation: the sum over grid points of flux times a
-/// band-limited function is the integral of the picture times that function.
+/// Flux of a picture less a constant at grid points, by the transpose of Lagrange interpolation: the sum over
+/// grid points of flux times a band-limited function is the integral of the picture times that function.
 class SpreadCube {
   public:
-    SpreadCube(const CubeView& source, int bands, int points_a_side, std::span<const CubeTexel> without,
-               const ForEach& each);
+    SpreadCube(const CubeView& source, const glm::dvec3& constant, int bands, int points_a_side,
+               std::span<const CubeTexel> without, const ForEach& each);
 
     /// The rings, for orders 0 ... bands. Refers to this.
     RingSource rings(int bands) const;

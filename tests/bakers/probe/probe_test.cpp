@@ -8,6 +8,7 @@
 
 #include "bakers/io/io.hpp"
 #include "bakers/probe/chain.hpp"
+#include "bakers/probe/method.hpp"
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/numerics/sequence.hpp"
@@ -153,7 +154,8 @@ TEST(ProbeBaker, CubeSourceTurnsByQuartersExactlyAndByNothingElse) {
 }
 
 TEST(ProbeBaker, EveryIntegratorKeepsAConstantEnvironmentConstant) {
-    for (const Integrator integrator : {Integrator::is, Integrator::fis, Integrator::reference}) {
+    for (const Integrator integrator :
+         {Integrator::is, Integrator::fis, Integrator::harmonic, Integrator::reference}) {
         ProbeParams params = defaults();
         params.integrator = integrator;
         const Product product =
@@ -195,7 +197,8 @@ TEST(ProbeBaker, FilteredSamplesApproachTheReference) {
 
 TEST(ProbeBaker, SameBytesAtAnyThreadCount) {
     const Inputs inputs = equirect(64, axes_picture);
-    for (const Integrator integrator : {Integrator::is, Integrator::fis, Integrator::reference}) {
+    for (const Integrator integrator :
+         {Integrator::is, Integrator::fis, Integrator::harmonic, Integrator::reference}) {
         ProbeParams params = defaults();
         params.integrator = integrator;
         const Product one = bake_probe(params, inputs, 1);
@@ -211,7 +214,7 @@ TEST(ProbeBaker, OneHugeTexelStaysFinite) {
     for (const double huge : {1e6, 1e9, 3e38}) {
         Inputs inputs = equirect(64, [](const glm::dvec3&) { return glm::dvec3(1); });
         inputs.at("source").image.texel(0, 0, 10, 20)[0] = static_cast<float>(huge);
-        for (const Integrator integrator : {Integrator::fis, Integrator::reference}) {
+        for (const Integrator integrator : {Integrator::fis, Integrator::harmonic, Integrator::reference}) {
             ProbeParams params = defaults();
             params.integrator = integrator;
             const Product product = bake_probe(params, inputs);
@@ -247,6 +250,71 @@ TEST(ProbeParamsCheck, NamesWhatNeitherSchemaNorSizeAllow) {
     EXPECT_EQ(mistakes[0].pointer, "/levels");
     EXPECT_NE(mistakes[0].message.find("at most 6"), std::string::npos);
     EXPECT_EQ(mistakes[1].pointer, "/samples");
+}
+
+TEST(ProbeParamsCheck, RefusesSamplesWhereNothingSamples) {
+    ProbeParams params = defaults();
+    params.integrator = Integrator::harmonic;
+    ASSERT_EQ(check(params, "ktx2").size(), 1u);
+    EXPECT_EQ(check(params, "ktx2")[0].pointer, "/samples");
+    params.samples = {0};
+    EXPECT_TRUE(check(params, "ktx2").empty());
+}
+
+TEST(ProbeMethod, AutoSolvesUnlessSamplesAreGivenOrLobesTooNarrow) {
+    ProbeParams params = defaults();
+    params.integrator = Integrator::automatic;
+    params.samples = {0};
+    EXPECT_EQ(method_of(params, {}).integrator, Integrator::harmonic);
+    EXPECT_NE(method_of(params, {}).reason, "");
+    params.samples = {64};
+    EXPECT_EQ(method_of(params, {}).integrator, Integrator::fis);
+    params.samples = {0};
+    params.size = 8192;
+    params.levels = 14;  // level 1 has alpha .006
+    EXPECT_EQ(method_of(params, {}).integrator, Integrator::harmonic);
+    Accuracy accuracy;
+    accuracy.max_error = 1e-12;  // no double holds it
+    EXPECT_EQ(method_of(params, accuracy).integrator, Integrator::harmonic);
+    params.integrator = Integrator::is;
+    EXPECT_EQ(method_of(params, {}).integrator, Integrator::is);
+    EXPECT_EQ(method_of(params, {}).reason, "");
+}
+
+TEST(ProbeMethod, AccuracyChoosesSamplesThatTheJobDoesNotGive) {
+    ProbeParams params = defaults();
+    params.samples = {0};
+    Accuracy draft;
+    draft.name = "draft";
+    EXPECT_LT(samples_of_level(params, draft, 1), samples_of_level(params, {}, 1));
+    params.samples = {7};
+    EXPECT_EQ(samples_of_level(params, draft, 1), 7);
+}
+
+TEST(ProbeBaker, AutoMeetsTheAccuracyOnASunlitEnvironment) {
+    const Inputs inputs{{"source", builtin_environment("outdoor")}};
+    ProbeParams params = defaults();
+    params.size = 64;
+    params.levels = 4;
+    params.integrator = Integrator::automatic;
+    params.samples = {0};
+    for (const auto& [name, error] : {std::pair{"draft", 1e-2}, {"production", 1e-3}, {"reference", 1e-4}}) {
+        Accuracy accuracy;
+        accuracy.name = name;
+        Context context(2, accuracy);
+        const Product product = bake(params, inputs, context);
+        EXPECT_EQ(product.properties["integrator"], "harmonic");
+        EXPECT_GT(product.properties["levels"][1]["bright_texels_apart"], 0);
+        const Certificate certificate = certify(params, inputs, product, context);
+        int levels = 0;
+        for (const Figure& figure : certificate.figures) {
+            if (figure.metric == "relative_rmse" && figure.level > 0) {
+                EXPECT_LT(figure.value, error) << name << " level " << *figure.level;
+                ++levels;
+            }
+        }
+        EXPECT_EQ(levels, 3);
+    }
 }
 
 TEST(ProbeParamsCheck, RefusesSizesThatAnExrCubeCannotHalve) {

@@ -207,6 +207,83 @@ TEST(LdHarmonic, StaysFiniteWithTheLargestTexel) {
     EXPECT_LT(dark[0], 0.7f);
 }
 
+TEST(LdHarmonic, ASunLeftInIsASunTakenOutAndPutBack) {
+    const Picture without = sky("no sun", 0, 0, 0), with = sky("sun", 100, 30, 1e7f);
+    const std::vector<CubeTexel> sun{{0, 100, 30}};
+    std::vector<glm::dvec3> directions{equirect_direction(100.5 / 256, 30.5 / 128)};
+    for (int i = 0; i < 100; ++i) directions.push_back(random_direction(2, i));
+    for (const double alpha : {0.04, 0.5}) {
+        const std::vector<float> a = filtered({with.view(), 0.04, 1e-3, for_each_in_turn}, alpha, directions);
+        const std::vector<float> b =
+            filtered({without.view(), 0.04, 1e-3, for_each_in_turn}, alpha, directions);
+        std::vector<double> of_sun(a.size()), behind_sun(a.size());
+        std::uint64_t evaluations = 0;
+        ld_partial(PatchBlocks(with.view(), sun), alpha, directions, of_sun, evaluations);
+        ld_partial(PatchBlocks(without.view(), sun), alpha, directions, behind_sun, evaluations);
+        for (std::size_t i = 0; i < a.size(); ++i)
+            EXPECT_NEAR(a[i], b[i] + of_sun[i] - behind_sun[i], 1e-3 + 1e-6 * of_sun[i]) << i;
+    }
+}
+
+TEST(LdHarmonic, OneTexelBecomesARoundSpotWhereverItLies) {
+    // At a corner, an edge and a pole of the cube, at the seam, and where the picture's rows meet.
+    for (const glm::dvec3& at :
+         {glm::dvec3(1, 1, 1), {1, 1, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {0.3, -0.9, 0.1}}) {
+        std::vector<float> picture(std::size_t{1024} * 512 * 3, 0.0f);
+        const glm::dvec2 uv = equirect_point(at);
+        const int x = std::min(1023, static_cast<int>(uv.x * 1024)),
+                  y = std::min(511, static_cast<int>(uv.y * 512));
+        picture[(static_cast<std::size_t>(y) * 1024 + x) * 3] = 1e6f;
+        // The centre of the texel's area: a texel at a pole is a wedge.
+        double sine_sum = 0, v_sum = 0;
+        for (int k = 0; k < 64; ++k) {
+            const double v = (y + (k + 0.5) / 64) / 512, sine = std::sin(std::numbers::pi * v);
+            sine_sum += sine;
+            v_sum += v * sine;
+        }
+        const glm::dvec3 centre = equirect_direction((x + 0.5) / 1024, v_sum / sine_sum);
+        const glm::dvec3 side = glm::normalize(glm::cross(centre, glm::dvec3(0.31, 0.55, -0.7)));
+        const LdHarmonic harmonic(EquirectView{picture.data(), 1024, 512}, 0.04, 1e-3, for_each_in_turn);
+        for (const double angle : {0.03, 0.1, 0.5}) {
+            std::vector<glm::dvec3> ring;
+            for (int i = 0; i < 24; ++i) {
+                const double turn = 2 * std::numbers::pi * i / 24;
+                const glm::dvec3 out = std::cos(turn) * side + std::sin(turn) * glm::cross(centre, side);
+                ring.push_back(std::cos(angle) * centre + std::sin(angle) * out);
+            }
+            const std::vector<float> found = filtered(harmonic, 0.04, ring);
+            float low = found[0], high = found[0];
+            for (std::size_t i = 0; i < found.size(); i += 3)
+                low = std::min(low, found[i]), high = std::max(high, found[i]);
+            EXPECT_LT(high / low, 1.01f) << angle;
+        }
+    }
+}
+
+TEST(LdHarmonic, EveryLevelHoldsTheLightOfThePicture) {
+    for (const Picture& picture : pictures()) {
+        double flux = 0;
+        for (int y = 0; y < picture.width / 2; ++y)
+            for (int x = 0; x < picture.width; ++x)
+                flux += equirect_texel_solid_angle(picture.width, picture.width / 2, y) *
+                        static_cast<double>(picture.view().texel(x, y)[1]);
+        const LdHarmonic harmonic(picture.view(), 0.04, 1e-3, for_each_in_turn);
+        constexpr int kSize = 128;
+        std::vector<glm::dvec3> directions;
+        for (int i = 0; i < 6 * kSize * kSize; ++i)
+            directions.push_back(
+                cubemap_texel_direction({i / (kSize * kSize), i % kSize, i / kSize % kSize}, kSize));
+        for (const double alpha : {0.04, 0.3, 1.0}) {
+            const std::vector<float> found = filtered(harmonic, alpha, directions);
+            double sum = 0;
+            for (int i = 0; i < 6 * kSize * kSize; ++i)
+                sum += cubemap_texel_solid_angle(kSize, i % kSize, i / kSize % kSize) *
+                       static_cast<double>(found[static_cast<std::size_t>(i) * 3 + 1]);
+            EXPECT_NEAR(sum / flux, 1, 1e-4) << picture.name << " " << alpha;
+        }
+    }
+}
+
 TEST(LdHarmonic, DoesNotDependOnTheOrderOfItsTasks) {
     const std::vector<float> picture = noise_picture(96, 48);
     const ForEach backwards = [](int count, const std::function<void(int)>& body) {

@@ -62,6 +62,7 @@ class HarmonicSpectrum {
     HarmonicSpectrum(int bands, const glm::dmat3& world_to_source);
     void integrate(RingModes& modes, const std::vector<double>& colatitudes_rad,
                    const std::vector<double>& weights, int points_a_ring, const ForEach& each);
+    void add_constant(const glm::dvec3& value);
     std::size_t start(int order) const;
     int bands_;
     glm::dmat3 world_to_source_;
