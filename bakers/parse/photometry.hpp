@@ -104,7 +104,8 @@ TiltTable parse_tilt(std::span<const std::byte> bytes, std::string_view file);
 /// The file as LM-63-2019, or as EULUMDAT: CRLF, UTF-8. What the other format has no field for goes into
 /// keywords of the user's own (`_LDT_…`), and is taken from there again; what EULUMDAT has no place for is
 /// named in `lost`. Throws Error(unwritable_output) for types A and B in EULUMDAT.
-std::string write_lm63(const PhotometricFile& file);
+/// `lamp_set` (from 0) is EULUMDAT's that LM-63, which has one, is written for.
+std::string write_lm63(const PhotometricFile& file, std::size_t lamp_set = 0);
 std::string write_eulumdat(const PhotometricFile& file, std::vector<std::string>& lost);
 
 }  // namespace pbrbake::parse
