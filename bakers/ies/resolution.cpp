@@ -73,17 +73,13 @@ std::vector<Candidate> polar_candidates(const IesParams& params, const Profile& 
     return list;
 }
 
-/// Odd with ends, so that the axis falls on a texel; a cube's axis lies in the middle of a face, between
-/// four.
+/// Odd, so that the axis, where most beams have their peak, falls on a texel.
 std::vector<Candidate> square_candidates(const IesParams& params) {
     std::vector<Candidate> list;
     const bool ends = params.align != Align::center && params.projection != Projection::cube;
-    for (const int n : {32, 64, 128, 256, 512, 1024, 2048, 4096})
-        if (const int size = ends ? n + 1 : n; size <= params.max_size)
-            list.push_back({size, size, ends});
-        else if (n == params.max_size)
-            list.push_back({n - 1, n - 1, ends});
-    if (list.empty()) list.push_back({params.max_size, params.max_size, ends});
+    for (int n = 33; n <= params.max_size; n = 2 * n - 1) list.push_back({n, n, ends});
+    const int most = params.max_size - (params.max_size % 2 == 0 ? 1 : 0);
+    if (list.empty() || list.back().width < most) list.push_back({most, most, ends});
     return list;
 }
 

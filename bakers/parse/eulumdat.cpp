@@ -166,10 +166,6 @@ std::vector<double> stored_angles(const EulumdatHeader& header, std::string_view
     const std::vector<double>& all = header.plane_angles_deg;
     if (header.symmetry == 1) return {0};
     const Stored stored = stored_planes(header);
-    if (header.symmetry > 1 && header.planes < 4)
-        throw malformed(name, line,
-                        std::string("has ") + std::to_string(header.planes) + " C-planes; Isym " +
-                            std::to_string(header.symmetry) + " needs at least 4");
     std::vector<double> angles;
     for (int i = 0; i < stored.count; ++i) {
         const int plane = stored.first + i;
@@ -241,15 +237,17 @@ PhotometricFile parse_photometry(std::span<const std::byte> bytes, std::string_v
     const auto is_tilt = [&](std::string_view line) {
         return begins(line, "TILT") && trimmed(trimmed(line).substr(4)).starts_with('=');
     };
-    const bool has_tag = !lines.empty() && (begins(lines[0], "IESNA") || begins(lines[0], "IES:"));
-    if (has_tag || std::any_of(lines.begin(), lines.end(), is_tilt)) return parse_lm63(bytes, name);
-    // EULUMDAT has no tag, but numbers in its second to seventh line.
+    // EULUMDAT has no tag, but numbers in its second to seventh line; a later line may well be a name that
+    // begins TILT=.
     const auto is_numeric = [](std::string_view line) {
         line = trimmed(line);
         return !line.empty() && line.find_first_not_of("0123456789.,+-") == line.npos;
     };
-    if (lines.size() >= 7 && std::all_of(lines.begin() + 1, lines.begin() + 4, is_numeric))
+    const bool has_tag =
+        !lines.empty() && (begins(lines[0], "IESNA") || begins(lines[0], "IES:") || is_tilt(lines[0]));
+    if (!has_tag && lines.size() >= 7 && std::all_of(lines.begin() + 1, lines.begin() + 4, is_numeric))
         return parse_eulumdat(bytes, name);
+    if (has_tag || std::any_of(lines.begin(), lines.end(), is_tilt)) return parse_lm63(bytes, name);
     throw malformed(
         name, 0, "is neither IES LM-63 (no line begins TILT=) nor EULUMDAT (lines 2 to 4 are not numbers)");
 }

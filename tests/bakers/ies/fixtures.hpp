@@ -129,7 +129,7 @@ inline double integrate_shaded(const Image& image, const Json& texture, int rows
         // Midpoints weigh a band by sin(middle); the band's solid angle is larger by (h/2) / sin(h/2) for
         // all.
         double row = 0;
-        const int columns = rows;
+        constexpr int columns = 360;
         for (int j = 0; j < columns; ++j) {
             const double azimuth = (j + .5) * 2 * kPi / columns;
             row += shade(image, texture, sine * std::cos(azimuth), sine * std::sin(azimuth), -down);
