@@ -81,7 +81,11 @@ const std::vector<std::string>& output_formats() {
 
 std::vector<std::byte> encode(std::string_view format, const Image& image, const FileInfo& info) {
     const Format* container = find_format(format);
-    if (!container) throw unwritable("unknown format '" + std::string(format) + "'");
+    if (!container) {
+        std::string names;
+        for (const std::string& name : output_formats()) names.append(names.empty() ? "" : ", ").append(name);
+        throw unwritable("unknown format '" + std::string(format) + "'; allowed: " + names);
+    }
     check_channels(image);
     check_shape(image);
     check_fits(*container, image);
