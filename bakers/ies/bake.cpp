@@ -7,6 +7,7 @@
 #include "bakers/ies/pictures.hpp"
 #include "bakers/ies/resolution.hpp"
 #include "bakers/ies/unit.hpp"
+#include "bakers/parse/text.hpp"
 
 namespace pbrbake::ies {
 namespace {
@@ -49,6 +50,9 @@ void warn(const Luminaire& luminaire, const std::string& name, Product& product)
         product.warnings.push_back(text + ": " + diagnostic.message);
     }
 }
+
+/// Two digits: "1.3 %".
+std::string percent(double share) { return parse::number_text(std::round(share * 1000) / 10) + " %"; }
 
 Document document_of(DocumentKind kind, const IesParams& params, const Luminaire& luminaire,
                      const std::string& name) {
@@ -160,6 +164,10 @@ Product bake(const IesParams& params, const Inputs& inputs, Context& context) {
         product.warnings.push_back(
             name +
             ": is not axially symmetric; the texture holds the mean over azimuth, which keeps the flux");
+    if (!rendered.is_within)
+        product.warnings.push_back(name + ": max_size " + std::to_string(params.max_size) +
+                                   " leaves the decoded flux off by " + percent(rendered.flux_error()) +
+                                   " and the peak by " + percent(rendered.peak_error()));
     product.units = params.normalise == Normalise::candela ? "cd" : "relative";
     product.images.push_back(std::move(rendered.image));
     return product;

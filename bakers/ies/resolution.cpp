@@ -117,8 +117,11 @@ Rendered render_at_best_size(const IesParams& params, const Profile& profile, Co
     const bool polar = params.projection == Projection::latlong || params.projection == Projection::axial;
     const Tolerance tolerance = tolerance_of(context.accuracy());
     std::optional<Rendered> best;
+    // The mean over azimuth has not the lamp's peak, at any size.
+    const bool has_peak =
+        params.projection != Projection::axial || profile.web().cover() == pbr::HorizontalCover::axial;
     const auto excess = [&](const Rendered& r) {
-        return std::max(r.flux_error() / tolerance.flux, r.peak_error() / tolerance.peak);
+        return std::max(r.flux_error() / tolerance.flux, has_peak ? r.peak_error() / tolerance.peak : 0);
     };
     for (const Candidate& candidate : polar ? polar_candidates(params, profile) : square_candidates(params)) {
         context.check_cancelled();
@@ -127,6 +130,7 @@ Rendered render_at_best_size(const IesParams& params, const Profile& profile, Co
         if (!best || excess(rendered) < excess(*best)) best = std::move(rendered);
         if (fits) break;
     }
+    best->is_within = excess(*best) <= 1;
     return std::move(*best);
 }
 

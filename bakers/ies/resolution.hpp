@@ -18,6 +18,7 @@ struct Rendered {
     Layout layout;
     Image image;
     Decoded decoded, truth;
+    bool is_within = true;  ///< the tolerance, where the size was chosen by it
 
     double flux_error() const;  ///< relative; 0 for darkness
     double peak_error() const;
