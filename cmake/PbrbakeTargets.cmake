@@ -6,6 +6,8 @@ target_compile_features(pbrbake_flags INTERFACE cxx_std_20)
 target_compile_options(pbrbake_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
     -ffp-contract=off
+    # GCC 12 vectorises neighbouring statements and then drops a rounding of double to float and back
+    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
     $<$<BOOL:${PBRBAKE_WERROR}>:-Werror>)
 if(PBRBAKE_SANITIZE)
     target_compile_options(pbrbake_flags INTERFACE -fsanitize=${PBRBAKE_SANITIZE} -fno-omit-frame-pointer

@@ -9,6 +9,7 @@
 
 #include "bakers/probe/chain.hpp"
 #include "bakers/probe/environment.hpp"
+#include "bakers/probe/method.hpp"
 #include "bakers/probe/probe.hpp"
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/ld.hpp"
@@ -44,16 +45,20 @@ std::vector<Tile> all_tiles(int size) {
     return tiles;
 }
 
-/// How many tiles a level can afford, so that checking costs no more than the bake: an exact texel costs as
-/// many kernel evaluations as about half the source has texels, each a tenth of a filtered sample's time.
-int affordable_tiles(const ProbeParams& params, const Environment& environment, int level) {
+/// How many tiles a level can afford, so that checking costs no more than the bake. An exact texel costs as
+/// many kernel evaluations as about half the source has texels; in these a filtered sample costs about ten,
+/// and the harmonic solver 100 a texel of the source, shared by the levels, and 200 a texel of the level.
+int affordable_tiles(const ProbeParams& params, const Method& method, const Accuracy& accuracy,
+                     const Environment& environment, int level) {
     constexpr double kFewest = 2, kMost = 64;
     const double n = environment.equivalent_size(), size = size_of_level(params, level);
-    const double whole = std::max(1.0, 6 * size * size / (kTile * kTile));
-    if (params.integrator == Integrator::reference) return static_cast<int>(std::min(kMost, whole));
-    const double exact_texel = 6 * n * n / 2 / 10;
-    const double affordable =
-        6 * size * size * samples_of_level(params, level) / (exact_texel * kTile * kTile);
+    const double source_texels = 6 * n * n, texels = 6 * size * size;
+    const double whole = std::max(1.0, texels / (kTile * kTile));
+    if (method.integrator == Integrator::reference) return static_cast<int>(std::min(kMost, whole));
+    const double work = method.integrator == Integrator::harmonic
+                            ? source_texels * 100 / (level_count(params) - 1) + texels * 200
+                            : texels * samples_of_level(params, accuracy, level) * 10;
+    const double affordable = work / (source_texels / 2 * kTile * kTile);
     return static_cast<int>(std::min(std::clamp(affordable, kFewest, kMost), whole));
 }
 
@@ -183,11 +188,13 @@ Figure mirror_figure(const ProbeParams& params, const Environment& environment, 
 }
 
 std::vector<Tile> tiles_of_level(const ProbeParams& params, const Environment& environment, int level,
-                                 bool all) {
+                                 const Context& context) {
     const int size = size_of_level(params, level);
-    if (all) return all_tiles(size);
+    if (context.certify_fully()) return all_tiles(size);
     std::vector<Tile> tiles;
-    for (int i = 0; i < affordable_tiles(params, environment, level); ++i)
+    const int count = affordable_tiles(params, method_of(params, context.accuracy()), context.accuracy(),
+                                       environment, level);
+    for (int i = 0; i < count; ++i)
         tiles.push_back(random_tile(size, pbr::random_bits(params.seed, 0x6365u, level, i)));
     return tiles;
 }
@@ -228,7 +235,7 @@ Certificate certify(const ProbeParams& params, const Inputs& inputs, const Produ
     const double source_energy = environment.energy();
     std::vector<std::vector<Tile>> tiles(static_cast<std::size_t>(level_count(params)));
     for (int l = 1; l < level_count(params); ++l) {
-        tiles[static_cast<std::size_t>(l)] = tiles_of_level(params, environment, l, context.certify_fully());
+        tiles[static_cast<std::size_t>(l)] = tiles_of_level(params, environment, l, context);
         for (const Tile& tile : tiles[static_cast<std::size_t>(l)]) context.expect(tile.texels());
     }
     Certificate certificate;

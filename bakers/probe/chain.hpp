@@ -1,5 +1,5 @@
 #pragma once
-// The mip chain of a probe: how many levels, of what size and roughness, with how many samples.
+// The mip chain of a probe: how many levels, of what size and roughness.
 
 #include <algorithm>
 #include <bit>
@@ -23,8 +23,8 @@ inline double perceptual_roughness_of_level(const ProbeParams& params, int level
     return pbr::perceptual_roughness_from_level(level, level_count(params));
 }
 
-inline int samples_of_level(const ProbeParams& params, int level) {
-    return params.samples.size() == 1 ? params.samples[0] : params.samples[static_cast<std::size_t>(level)];
+inline double alpha_of_level(const ProbeParams& params, int level) {
+    return pbr::alpha_from_perceptual_roughness(perceptual_roughness_of_level(params, level));
 }
 
 }  // namespace pbrbake::probe

@@ -62,6 +62,12 @@ pbr::PatchBlocks Environment::blocks() const {
     return is_cube() ? pbr::PatchBlocks(cube_) : pbr::PatchBlocks(equirect_);
 }
 
+pbr::LdHarmonic Environment::harmonic(double smallest_alpha, double max_error,
+                                      const pbr::ForEach& each) const {
+    return is_cube() ? pbr::LdHarmonic(cube_, smallest_alpha, max_error, each)
+                     : pbr::LdHarmonic(equirect_, smallest_alpha, max_error, each);
+}
+
 double Environment::energy() const {
     pbr::CompensatedSum flux;
     const auto add = [&](const float* rgb, double solid_angle) {
@@ -82,15 +88,34 @@ double Environment::energy() const {
     return flux.value();
 }
 
-void Environment::resample_row(int size, int face, int y, std::span<float> rgb_out) const {
-    if (size <= equivalent_size()) return resample_area_row(size, face, y, rgb_out);
-    return is_cube() ? pbr::resample_bilinear(cube_, size, face, y, rgb_out)
-                     : pbr::resample_bilinear(equirect_, size, face, y, rgb_out);
+namespace {
+
+std::span<float> row_of(std::span<float> rgb, int size, int row) {
+    const std::size_t stride = static_cast<std::size_t>(size) * 3;
+    return rgb.subspan(static_cast<std::size_t>(row) * stride, stride);
 }
 
-void Environment::resample_area_row(int size, int face, int y, std::span<float> rgb_out) const {
-    return is_cube() ? pbr::resample_area(cube_, size, face, y, rgb_out)
-                     : pbr::resample_area(equirect_, size, face, y, rgb_out);
+}  // namespace
+
+void Environment::resample_row(int size, int face, int y, std::span<float> rgb_out) const {
+    const bool grows = size <= equivalent_size();
+    if (is_cube())
+        return grows ? pbr::resample_area(cube_, size, face, y, rgb_out)
+                     : pbr::resample_bilinear(cube_, size, face, y, rgb_out);
+    return grows ? pbr::resample_area(equirect_, size, face, y, rgb_out)
+                 : pbr::resample_bilinear(equirect_, size, face, y, rgb_out);
+}
+
+void Environment::resample(int size, const pbr::ForEach& each, std::span<float> rgb_out) const {
+    if (size <= equivalent_size()) return resample_area(size, each, rgb_out);
+    each(6 * size, [&](int row) { resample_row(size, row / size, row % size, row_of(rgb_out, size, row)); });
+}
+
+void Environment::resample_area(int size, const pbr::ForEach& each, std::span<float> rgb_out) const {
+    if (!is_cube()) return pbr::resample_area(equirect_, size, each, rgb_out);
+    each(6 * size, [&](int row) {
+        pbr::resample_area(cube_, size, row / size, row % size, row_of(rgb_out, size, row));
+    });
 }
 
 }  // namespace pbrbake::probe

@@ -8,6 +8,7 @@
 #include "bakers/image.hpp"
 #include "bakers/probe/params.hpp"
 #include "pbr/ibl/environment.hpp"
+#include "pbr/ibl/ld_harmonic.hpp"
 #include "pbr/ibl/patches.hpp"
 
 namespace pbrbake::probe {
@@ -25,15 +26,20 @@ class Environment {
 
     pbr::PatchBlocks blocks() const;
 
+    /// Its transform for lobes of alpha >= smallest_alpha.
+    pbr::LdHarmonic harmonic(double smallest_alpha, double max_error, const pbr::ForEach& each) const;
+
     /// Radiance times solid angle over all texels and channels.
     double energy() const;
 
-    /// One row of a face of a cube of `size`: the mean over each texel where texels grow, bilinear where they
-    /// shrink.
+    /// One row of a face, by the slower and more exact way: what resample() is held against.
     void resample_row(int size, int face, int y, std::span<float> rgb_out) const;
 
+    /// A whole cube of `size` (faces, rows, RGB): the mean over each texel, or bilinear where they shrink.
+    void resample(int size, const pbr::ForEach& each, std::span<float> rgb_out) const;
+
     /// The mean over each texel, whatever the size.
-    void resample_area_row(int size, int face, int y, std::span<float> rgb_out) const;
+    void resample_area(int size, const pbr::ForEach& each, std::span<float> rgb_out) const;
 
   private:
     pbr::EquirectView equirect_;

@@ -11,7 +11,7 @@
 namespace pbrbake {
 namespace probe {
 
-enum class Integrator { is, fis, reference };
+enum class Integrator { automatic, is, fis, harmonic, reference };
 enum class Up { y, z };
 enum class Units { automatic, relative, cd_per_m2 };
 
@@ -25,7 +25,7 @@ struct ProbeParams {
     int size;
     int levels;  ///< 0 stands for "as many as leave 8 texels a side"
     Integrator integrator;
-    std::vector<int> samples;  ///< one for all levels, or one a level
+    std::vector<int> samples;  ///< one for all levels, or one a level; a single 0: as the accuracy asks
     double level_bias;
     std::uint64_t seed;
 
@@ -50,7 +50,7 @@ struct ProbeParams {
 
 template <>
 struct EnumNames<probe::Integrator> {
-    static constexpr std::array<std::string_view, 3> names{"is", "fis", "reference"};
+    static constexpr std::array<std::string_view, 5> names{"auto", "is", "fis", "harmonic", "reference"};
 };
 template <>
 struct EnumNames<probe::Up> {

@@ -6,9 +6,38 @@ execute_process(COMMAND ${configure} -S ${SOURCE} -B ${WORK}/build COMMAND_ERROR
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK}/build COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK}/build/use_libpbr OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
 message("${said}")
-if(NOT said MATCHES "scale 0\\.[0-9]+, bias 0\\.[0-9]+" OR NOT said MATCHES "density at its axis [0-9.]+ / sr")
-    message(FATAL_ERROR "use_libpbr printed something else")
+# Its figures, each reckoned a second time by other code: E, Fc and the lobe by their formulas, Sunny 16 by hand, the
+# ball by the textbook form of its BRDF.
+foreach(figure IN ITEMS
+        "scale 0.834916, bias 0.022347"
+        "density at its axis 1.670257 / sr"
+        "EV 14.64, mean 3200 nit, saturates at 30720 nit"
+        "60 deg up: 100000.00 lx,  5194.52 nit, pixel 0.1691"
+        "30 deg up:  86602.54 lx,  9950.57 nit, pixel 0.3239"
+        " 0 deg up:  50000.00 lx,  2597.26 nit, pixel 0.0845"
+        "-60 deg up:      0.00 lx,     0.00 nit, pixel 0.0000"
+        "EV 4.88"
+        "800 lm, 63.66 cd"
+        "30 deg up:     13.78 lx,     1.58 nit, pixel 0.0449")
+    string(FIND "${said}" "${figure}" at)
+    if(at EQUAL -1)
+        message(FATAL_ERROR "use_libpbr did not print \"${figure}\"")
+    endif()
+endforeach()
+
+# And the README shows what it prints.
+file(STRINGS ${SOURCE}/README.md shown REGEX "^    +(Sunny|ball|normal)")
+list(LENGTH shown count)
+if(count LESS 6)
+    message(FATAL_ERROR "the README shows ${count} lines of use_libpbr's")
 endif()
+foreach(line IN LISTS shown)
+    string(SUBSTRING "${line}" 4 -1 line)
+    string(FIND "${said}" "${line}" at)
+    if(at EQUAL -1)
+        message(FATAL_ERROR "use_libpbr did not print what its README shows: ${line}")
+    endif()
+endforeach()
 
 file(WRITE ${WORK}/wrong/CMakeLists.txt
 "cmake_minimum_required(VERSION 3.21)\nproject(wrong LANGUAGES CXX)\nfind_package(pbrbake REQUIRED COMPONENTS nonsense)\n")

@@ -15,6 +15,16 @@ namespace {
 
 constexpr int kBlockSide = 8;
 
+double texel_angle_of(const EquirectView& source) {
+    return std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height);
+}
+
+std::vector<QuadratureRule> rules_of_orders() {
+    std::vector<QuadratureRule> rules;
+    for (const int order : PatchBlocks::kOrders) rules.push_back(gauss_legendre(order));
+    return rules;
+}
+
 }  // namespace
 
 double angle_of_chord(double chord) {
@@ -27,12 +37,12 @@ void PatchPoints::resize(std::size_t count) {
 }
 
 PatchBlocks::PatchBlocks(const EquirectView& source)
-    : equirect_(source),
-      texel_angle_(std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height)) {
+    : equirect_(source), texel_angle_(texel_angle_of(source)), rules_(rules_of_orders()) {
     add_blocks(0, source.width, source.height);
 }
 
-PatchBlocks::PatchBlocks(const CubeView& source) : cube_(source), texel_angle_(2.0 / source.size) {
+PatchBlocks::PatchBlocks(const CubeView& source)
+    : cube_(source), texel_angle_(2.0 / source.size), rules_(rules_of_orders()) {
     for (int face = 0; face < 6; ++face) add_blocks(face, source.size, source.size);
 }
 
@@ -43,24 +53,34 @@ glm::dvec3 PatchBlocks::direction(int face, double x, double y) const {
            equirect_direction(x / equirect_.width, y / equirect_.height);
 }
 
+PatchBlocks::PatchBlocks(const EquirectView& source, std::span<const CubeTexel> texels)
+    : equirect_(source), texel_angle_(texel_angle_of(source)), rules_(rules_of_orders()) {
+    for (const CubeTexel& texel : texels) add_block({0, texel.x, texel.y, 1, 1, {}});
+}
+
+PatchBlocks::PatchBlocks(const CubeView& source, std::span<const CubeTexel> texels)
+    : cube_(source), texel_angle_(2.0 / source.size), rules_(rules_of_orders()) {
+    for (const CubeTexel& texel : texels) add_block({texel.face, texel.x, texel.y, 1, 1, {}});
+}
+
 void PatchBlocks::add_blocks(int face, int width, int height) {
-    if (rules_.empty())
-        for (const int order : kOrders) rules_.push_back(gauss_legendre(order));
     for (int y = 0; y < height; y += kBlockSide)
-        for (int x = 0; x < width; x += kBlockSide) {
-            Block block{face, x, y, std::min(kBlockSide, width - x), std::min(kBlockSide, height - y), {}};
-            block.cone.axis = direction(face, x + block.width / 2.0, y + block.height / 2.0);
-            // A cell of a grid is not convex on the sphere, but no point of it is farther out than its
-            // outline by more than a texel.
-            double farthest = 0;
-            for (int j = 0; j <= block.height; ++j)
-                for (int i = 0; i <= block.width; ++i) {
-                    const glm::dvec3 d = direction(face, x + i, y + j);
-                    farthest = std::max(farthest, glm::length(d - block.cone.axis));
-                }
-            block.cone.half_angle = angle_of_chord(farthest) + texel_angle_ / 2;
-            blocks_.push_back(block);
+        for (int x = 0; x < width; x += kBlockSide)
+            add_block({face, x, y, std::min(kBlockSide, width - x), std::min(kBlockSide, height - y), {}});
+}
+
+void PatchBlocks::add_block(Block block) {
+    block.cone.axis = direction(block.face, block.x + block.width / 2.0, block.y + block.height / 2.0);
+    // A cell of a grid is not convex on the sphere, but no point of it is farther out than its outline by
+    // more than a texel.
+    double farthest = 0;
+    for (int j = 0; j <= block.height; ++j)
+        for (int i = 0; i <= block.width; ++i) {
+            const glm::dvec3 d = direction(block.face, block.x + i, block.y + j);
+            farthest = std::max(farthest, glm::length(d - block.cone.axis));
         }
+    block.cone.half_angle = angle_of_chord(farthest) + texel_angle_ / 2;
+    blocks_.push_back(block);
 }
 
 void PatchBlocks::points(int index, int order_index, PatchPoints& points) const {

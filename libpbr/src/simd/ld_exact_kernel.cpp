@@ -104,8 +104,11 @@ Cone fill_group(std::span<const glm::dvec3> directions, LdGroup& group) {
 
 }  // namespace
 
-double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
-                std::span<double> rgb_out, std::uint64_t& evaluations) {
+namespace {
+
+/// The sums of all directions, kLdGroup of them a group.
+std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
+                             std::uint64_t& evaluations) {
     const GgxZonalKernel kernel(alpha);
     const std::size_t group_count = (directions.size() + kLdGroup - 1) / kLdGroup;
     std::vector<LdGroup> groups(group_count);
@@ -134,6 +137,14 @@ double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dv
         }
     }
 
+    return groups;
+}
+
+}  // namespace
+
+double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
+                std::span<double> rgb_out, std::uint64_t& evaluations) {
+    const std::vector<LdGroup> groups = sums_of(source, alpha, directions, evaluations);
     double deviation = 0;
     for (std::size_t i = 0; i < directions.size(); ++i) {
         const LdGroup& group = groups[i / kLdGroup];
@@ -142,6 +153,13 @@ double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dv
         for (int c = 0; c < 3; ++c) rgb_out[i * 3 + c] = group.sum[c][lane] / group.sum[3][lane];
     }
     return deviation;
+}
+
+void ld_partial(const PatchBlocks& part, double alpha, std::span<const glm::dvec3> directions,
+                std::span<double> rgb_out, std::uint64_t& evaluations) {
+    const std::vector<LdGroup> groups = sums_of(part, alpha, directions, evaluations);
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        for (int c = 0; c < 3; ++c) rgb_out[i * 3 + c] = groups[i / kLdGroup].sum[c][i % kLdGroup];
 }
 
 }  // namespace pbr

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/libpbr/support/float_error.hpp"
+#include "tests/libpbr/support/reflections.hpp"
+
 namespace pbr {
 namespace {
 
@@ -65,6 +68,22 @@ TEST(DisneyDiffuse, IsReciprocal) {
     EXPECT_EQ(f_disney_diffuse(0.3, 0.8, 0.9, 0.6), f_disney_diffuse(0.8, 0.3, 0.9, 0.6));
     EXPECT_EQ(f_disney_diffuse_original(0.3f, 0.8f, 0.9f, 0.6f),
               f_disney_diffuse_original(0.8f, 0.3f, 0.9f, 0.6f));
+}
+
+TEST(DisneyDiffuse, FloatIsWithinTheUlpStated) {
+    for (int i = 0; i < 50'000; ++i) {
+        const Reflection<float> r = as_float(sample_reflection(i));
+        const Reflection<double> d = as_double(r);
+        const float p = static_cast<float>(random_unit(1, i));
+        const double q = p;
+        EXPECT_LT(ulp_error(f_disney_diffuse_original(r.NoL, r.NoV, r.LoH, p),
+                            f_disney_diffuse_original(d.NoL, d.NoV, d.LoH, q)),
+                  16);
+        EXPECT_LT(ulp_error_of(1 / std::numbers::pi, f_disney_diffuse(r.NoL, r.NoV, r.LoH, p),
+                               f_disney_diffuse(d.NoL, d.NoV, d.LoH, q)),
+                  16);
+    }
+    EXPECT_DOUBLE_EQ(f_disney_diffuse_original(0.0, 0.0, 1.0, 1.0), 6.25 / std::numbers::pi);
 }
 
 }  // namespace

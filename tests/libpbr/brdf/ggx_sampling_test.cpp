@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "tests/libpbr/support/chi_square.hpp"
+#include "tests/libpbr/support/float_error.hpp"
+#include "tests/libpbr/support/reflections.hpp"
 
 namespace pbr {
 namespace {
@@ -58,6 +60,23 @@ TEST(GgxSampling, SamplesAreUnitVectorsAboveTheSurface) {
                                       sample_ggx_vndf(wo, std::max(alpha, 1e-6f), u1, u2)}) {
             EXPECT_NEAR(glm::length(wm), 1, 1e-5f);
             EXPECT_GE(wm.z, -1e-6f);
+        }
+    }
+}
+
+TEST(GgxSampling, FloatIsWithinTheUlpStated) {
+    for (int i = 0; i < 50'000; ++i) {
+        const Reflection<float> r = as_float(sample_reflection(i));
+        const Reflection<double> d = as_double(r);
+        const float alpha = static_cast<float>(std::pow(random_unit(1, i), 3) + 1e-3),
+                    u1 = static_cast<float>(random_unit(2, i)) * .999f,
+                    u2 = static_cast<float>(random_unit(3, i)) * .999f;
+        const double a = alpha;
+        EXPECT_NEAR(glm::length(Vec3<double>(sample_ggx_ndf(alpha, u1, u2))), 1, 4 * 0x1p-23);
+        EXPECT_NEAR(glm::length(Vec3<double>(sample_ggx_vndf(r.wo, alpha, u1, u2))), 1, 4 * 0x1p-23);
+        EXPECT_LT(ulp_error(pdf_ggx_ndf(alpha, r.wm), pdf_ggx_ndf(a, d.wm)), 10);
+        if (d.LoH > .1) {  // below, wo.wm cancels
+            EXPECT_LT(ulp_error(pdf_ggx_vndf(r.wo, alpha, r.wm), pdf_ggx_vndf(d.wo, a, d.wm)), 16);
         }
     }
 }

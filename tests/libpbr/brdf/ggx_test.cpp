@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pbr/brdf/fresnel.hpp"
 #include "pbr/numerics/sequence.hpp"
+#include "tests/libpbr/support/float_error.hpp"
 
 namespace pbr {
 namespace {
@@ -86,11 +86,33 @@ TEST(Ggx, FloatFollowsDouble) {
     }
 }
 
-TEST(Fresnel, SchlickHasItsEndsExactly) {
-    EXPECT_EQ(F_schlick(0.04, 1.0, 1.0), 0.04);
-    EXPECT_EQ(F_schlick(0.04, 0.9, 0.0), 0.9);
-    EXPECT_EQ(schlick_weight(1 + 1e-12), 0);
-    EXPECT_EQ(schlick_weight(-1e-12), 1);
+TEST(Ggx, SpecularTimesCosineIsFiniteWhereVisibilityIsNot) {
+    EXPECT_TRUE(std::isinf(V_smith_ggx_correlated(0.0, 0.0, 0.5)));
+    EXPECT_EQ(ggx_specular(0.0, 0.0, 1.0, 0.0, 0.5), 0);
+    EXPECT_EQ(ggx_specular(0.0, 0.7, 0.8, 0.36, 0.5), 0);
+    EXPECT_DOUBLE_EQ(ggx_specular(0.7, 0.0, 0.8, 0.36, 0.5), D_ggx(0.8, 0.36, 0.5) / (2 * 0.5));
+    for (int i = 0; i < 10'000; ++i) {
+        const double NoL = random_unit(8, i), NoV = random_unit(9, i), NoH = random_unit(10, i),
+                     alpha = std::pow(random_unit(11, i), 4) + 1e-8, sin2 = 1 - NoH * NoH;
+        const double product = D_ggx(NoH, sin2, alpha) * V_smith_ggx_correlated(NoL, NoV, alpha) * NoL;
+        EXPECT_NEAR(ggx_specular(NoL, NoV, NoH, sin2, alpha) / product, 1, 1e-15);
+    }
+}
+
+TEST(Ggx, FloatIsWithinTheUlpStated) {
+    for (int i = 0; i < 100'000; ++i) {
+        const float NoL = static_cast<float>(random_unit(12, i)),
+                    NoV = static_cast<float>(random_unit(13, i)),
+                    alpha = static_cast<float>(std::pow(random_unit(14, i), 4) + 1e-4),
+                    NoH = static_cast<float>(random_unit(15, i)), sin2 = (1 - NoH) * (1 + NoH);
+        const double l = NoL, v = NoV, a = alpha, h = NoH, s = sin2;
+        EXPECT_LT(ulp_error(D_ggx(NoH, sin2, alpha), D_ggx(h, s, a)), 8);
+        EXPECT_LT(ulp_error(smith_ggx_root(NoL, alpha), smith_ggx_root(l, a)), 4);
+        EXPECT_LT(ulp_error(G1_smith_ggx(NoL, alpha), G1_smith_ggx(l, a)), 8);
+        EXPECT_LT(ulp_error(V_smith_ggx_correlated(NoL, NoV, alpha), V_smith_ggx_correlated(l, v, a)), 8);
+        EXPECT_LT(ulp_error(V_smith_ggx_uncorrelated(NoL, NoV, alpha), V_smith_ggx_uncorrelated(l, v, a)), 8);
+        EXPECT_LT(ulp_error(ggx_specular(NoL, NoV, NoH, sin2, alpha), ggx_specular(l, v, h, s, a)), 16);
+    }
 }
 
 }  // namespace

@@ -44,25 +44,30 @@ inline rc::Gen<Vec3<double>> direction(double z_min = -1) {
     const auto z = rc::gen::weightedOneOf<double>(
         {{1, rc::gen::element(1.0, z_min, std::max(z_min, 0.0), 1 - 1e-9, std::max(z_min, 1e-9))},
          {4, uniform(z_min, 1)}});
-    return rc::gen::map(rc::gen::pair(z, uniform(0, 2 * std::numbers::pi)), [](const std::pair<double, double>& p) {
-        const double s = std::sqrt(std::max(0.0, (1 - p.first) * (1 + p.first)));
-        return Vec3<double>(s * std::cos(p.second), s * std::sin(p.second), p.first);
-    });
+    return rc::gen::map(rc::gen::pair(z, uniform(0, 2 * std::numbers::pi)),
+                        [](const std::pair<double, double>& p) {
+                            const double s = std::sqrt(std::max(0.0, (1 - p.first) * (1 + p.first)));
+                            return Vec3<double>(s * std::cos(p.second), s * std::sin(p.second), p.first);
+                        });
 }
 
 /// A unit vector above the surface with normal +z.
 inline rc::Gen<Vec3<double>> direction_above() { return direction(0); }
 
-/// How many floating-point numbers of T lie from a to b; NaN is infinitely far from everything, 0 and -0 are one.
+/// How many floating-point numbers of T lie from a to b; NaN is infinitely far from everything, 0 and -0 are
+/// one.
 template <class T>
 double ulp_distance(T a, T b) {
     using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
     const auto ordered = [](T x) {
         const Bits bits = std::bit_cast<Bits>(x);
-        return bits < 0 ? -static_cast<double>(bits & std::numeric_limits<Bits>::max()) : static_cast<double>(bits);
+        return bits < 0 ? -(bits & std::numeric_limits<Bits>::max()) : bits;
     };
-    return std::abs(ordered(a) - ordered(b));
+    const Bits i = ordered(a), j = ordered(b);
+    // Exact where it counts: as doubles, the places of two neighbours of 64 bits are the same or 512 apart.
+    if ((i < 0) == (j < 0)) return static_cast<double>(i < j ? j - i : i - j);
+    return std::abs(static_cast<double>(i)) + std::abs(static_cast<double>(j));
 }
 
 }  // namespace pbr

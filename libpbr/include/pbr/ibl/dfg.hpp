@@ -46,9 +46,11 @@ struct DfgMethod {
     int samples = 0;         ///< of importance sampling
     std::uint64_t seed = 0;  ///< of importance sampling; every (NoV, alpha) hashes it anew
 
+    /// Quadrature by dfg_rule(max_error).
     static DfgMethod quadrature(double max_error) {
         return {DfgEstimator::quadrature, dfg_rule(max_error), 0, 0};
     }
+    /// Monte Carlo with `samples` >= 1 a table entry.
     static DfgMethod importance_sampling(int samples, std::uint64_t seed) {
         return {DfgEstimator::importance_sampling, {}, samples, seed};
     }

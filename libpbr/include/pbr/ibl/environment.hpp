@@ -9,6 +9,8 @@
 #include <glm/vec3.hpp>
 #include <span>
 
+#include "pbr/numerics/for_each.hpp"
+
 namespace pbr {
 
 /// An equirectangular picture. Its own frame is OpenEXR's for latitude-longitude maps: the top row surrounds
@@ -21,6 +23,7 @@ struct EquirectView {
     int height = 0;
     glm::dmat3 world_to_source{1.0};
 
+    /// RGB of column x, row y.
     const float* texel(int x, int y) const { return rgb + (static_cast<long>(y) * width + x) * 3; }
 };
 
@@ -29,6 +32,7 @@ struct CubeView {
     const float* rgb = nullptr;
     int size = 0;
 
+    /// RGB of column x, row y of a face.
     const float* texel(int face, int x, int y) const {
         return rgb + ((static_cast<long>(face) * size + y) * size + x) * 3;
     }
@@ -46,10 +50,15 @@ double equirect_texel_solid_angle(int width, int height, int y);
 
 /// Row y of a face of a cube map of `size`: each texel the mean radiance of the picture over the texel's
 /// solid angle. `rgb_out` holds size * 3 floats. Every texel's integral is exact in colatitude and by
-/// Gauss-Legendre quadrature in longitude between the picture's columns; relative error of a mean below 1e-3
-/// of the contrast of texels that a cube edge cuts, and 0 for a constant picture. Costs about (source texels
-/// covered) x 3 evaluations.
+/// three-point Gauss-Legendre quadrature in longitude between the picture's columns. Error, as a share of the
+/// contrast between neighbouring texels of the picture: 4e-4 root mean square, 1e-2 at most; 0 for a constant
+/// picture.
 void resample_area(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out);
+
+/// All faces at once, in rgb_out[((face * size + y) * size + x) * 3], four to five times faster where
+/// world_to_source takes the picture's vertical axis to an axis of the cube. By two points between columns:
+/// error 1e-3 root mean square, 2e-2 at most.
+void resample_area(const EquirectView& source, int size, const ForEach& each, std::span<float> rgb_out);
 
 /// The same for a cube map of another size: exact.
 void resample_area(const CubeView& source, int size, int face, int y, std::span<float> rgb_out);

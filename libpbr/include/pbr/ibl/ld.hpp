@@ -31,12 +31,17 @@ class CubePyramid {
     /// each holds the same flux.
     CubePyramid(std::span<const float> rgb, int size);
 
+    /// Texels a side of level 0.
     int size() const { return size_; }
+    /// Levels down to 1 x 1.
     int levels() const { return static_cast<int>(offsets_.size()); }
     /// Padded face: rows of (size_of(level) + 2) RGBA texels.
     const float* face(int level, int face) const;
+    /// Texels a side of a level, without borders.
     int size_of(int level) const { return size_ >> level; }
+    /// All levels; what offset() counts in.
     const std::vector<float>& texels() const { return texels_; }
+    /// Where a level begins in texels(): its padded face 0.
     std::int32_t offset(int level) const { return offsets_[level]; }
 
     /// Bilinear within a level, linear between; `lod` is clamped to the chain. Direction of any length but 0.
@@ -81,6 +86,11 @@ void ld_sampled(const CubePyramid& pyramid, const LdSamples& samples, std::uint6
 /// quadrature's own check and about the relative error: below 3e-5 for pictures of 128 texels around and
 /// more, 2e-4 at 32, for alpha >= .003. Adds its kernel evaluations to `evaluations`.
 double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
+                std::span<double> rgb_out, std::uint64_t& evaluations);
+
+/// The same sum over part of a sphere, not divided by anything: what the texels of `part` add to LD. Relative
+/// error below 1e-5.
+void ld_partial(const PatchBlocks& part, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations);
 
 /// How LD is had.

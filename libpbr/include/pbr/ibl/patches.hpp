@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
+#include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/numerics/quadrature.hpp"
 
@@ -17,7 +19,9 @@ struct PatchPoints {
     std::vector<float> x, y, z;  ///< unit vectors in the world
     std::vector<float> weight;
     std::vector<float> r, g, b;  ///< radiance
+    /// How many points.
     std::size_t size() const { return x.size(); }
+    /// Makes all arrays `count` long.
     void resize(std::size_t count);
 };
 
@@ -33,10 +37,16 @@ double angle_of_chord(double chord);
 /// A picture cut into blocks of up to 8 x 8 texels. Keeps a view: the picture must outlive it.
 class PatchBlocks {
   public:
+    /// Blocks of a picture of any size from 1 x 1.
     explicit PatchBlocks(const EquirectView& source);
     explicit PatchBlocks(const CubeView& source);
+    /// Some texels of a picture (of face 0 of an equirect), each a block.
+    PatchBlocks(const EquirectView& source, std::span<const CubeTexel> texels);
+    PatchBlocks(const CubeView& source, std::span<const CubeTexel> texels);
 
+    /// How many blocks.
     int count() const { return static_cast<int>(blocks_.size()); }
+    /// Of block 0 … count() - 1.
     const Cone& cone(int block) const { return blocks_[block].cone; }
 
     /// The largest angle a texel of the picture spans along either axis, radians.
@@ -56,6 +66,7 @@ class PatchBlocks {
         Cone cone;
     };
     void add_blocks(int face, int width, int height);
+    void add_block(Block block);
     glm::dvec3 direction(int face, double x,
                          double y) const;  ///< of a continuous texel coordinate, unit, world
     void equirect_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const;

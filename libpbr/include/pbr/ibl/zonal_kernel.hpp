@@ -14,8 +14,10 @@ namespace pbr {
 /// k for one alpha in (0, 1].
 class GgxZonalKernel {
   public:
+    /// alpha in (0, 1]; 1 is the cosine lobe mu / pi.
     explicit GgxZonalKernel(double alpha);
 
+    /// As constructed.
     double alpha() const { return alpha_; }
 
     /// k, 1/sr, from 1 - mu in [0, 2]; 0 from the horizon (1) on. Relative error below 1e-14.

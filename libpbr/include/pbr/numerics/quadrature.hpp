@@ -9,6 +9,7 @@ namespace pbr {
 struct QuadratureRule {
     std::vector<double> nodes;
     std::vector<double> weights;
+    /// How many nodes.
     int size() const { return static_cast<int>(nodes.size()); }
 };
 

@@ -11,12 +11,14 @@ namespace pbr {
 /// Summen".)
 class CompensatedSum {
   public:
+    /// Adds a finite term.
     CompensatedSum& operator+=(double term) {
         const double sum = sum_ + term;
         compensation_ += std::abs(sum_) >= std::abs(term) ? (sum_ - sum) + term : (term - sum) + sum_;
         sum_ = sum;
         return *this;
     }
+    /// The sum so far; 0 of nothing.
     double value() const { return sum_ + compensation_; }
 
   private:

@@ -1,0 +1,161 @@
+#include "bakers/probe/levels.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "bakers/probe/chain.hpp"
+#include "pbr/ibl/cubemap.hpp"
+#include "pbr/ibl/ld.hpp"
+#include "pbr/ibl/ld_harmonic.hpp"
+
+namespace pbrbake::probe {
+namespace {
+
+constexpr double kLargestPyramid = 1024;  // 134 MB of RGBA floats; far finer than any lobe that is sampled
+
+/// What fills texels of a level of `size` with RGB, and returns its evaluations.
+using Filter =
+    std::function<std::uint64_t(int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb)>;
+
+/// A level in strips of 4 x 4 tiles: exact sums like texels that lie together.
+Level filled_by_strips(Context& context, int size, double work_of_texel, const Filter& filter) {
+    Level level = empty_level(size);
+    const int side = std::min(size, 4), strips = (size + side - 1) / side;
+    std::atomic<std::uint64_t> evaluations{0};
+    context.parallel_for(6 * strips, 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+            const int face = static_cast<int>(i / strips), top = static_cast<int>(i % strips) * side;
+            std::vector<pbr::CubeTexel> texels;
+            for (int left = 0; left < size; left += side)
+                for (int y = top; y < std::min(top + side, size); ++y)
+                    for (int x = left; x < std::min(left + side, size); ++x) texels.push_back({face, x, y});
+            std::vector<float> rgb(texels.size() * 3);
+            evaluations += filter(size, texels, rgb);
+            for (std::size_t k = 0; k < texels.size(); ++k) {
+                const std::size_t row = static_cast<std::size_t>(face) * size + texels[k].y;
+                std::copy_n(&rgb[k * 3], 3, &level.texels[(row * size + texels[k].x) * 3]);
+            }
+            context.advance(work_of_texel * static_cast<double>(texels.size()));
+        }
+    });
+    context.count("ld", evaluations);
+    return level;
+}
+
+/// Fills all levels by strips; `filter_of(level, alpha)` makes each level's filter.
+template <class FilterOf>
+void fill_levels(const ProbeParams& params, double work_of_texel, Context& context, Image& image,
+                 const FilterOf& filter_of) {
+    for (int l = 1; l < level_count(params); ++l)
+        context.expect(6 * work_of_texel * size_of_level(params, l) * size_of_level(params, l));
+    for (int l = 1; l < level_count(params); ++l)
+        image.levels[static_cast<std::size_t>(l)] = filled_by_strips(
+            context, size_of_level(params, l), work_of_texel, filter_of(l, alpha_of_level(params, l)));
+}
+
+/// Texels a side of the pyramid that samples read: about ten across the narrowest lobe (finer ones change no
+/// digit of the result), but no texel below a quarter of the source's, whose edges it then shows exactly
+/// enough.
+int pyramid_size(const ProbeParams& params, const Environment& environment) {
+    const double wanted =
+        std::min({8 / alpha_of_level(params, 1), 4.0 * environment.equivalent_size(), kLargestPyramid});
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(wanted))));
+}
+
+pbr::CubePyramid make_pyramid(const ProbeParams& params, const Environment& environment, const Level& level_0,
+                              Context& context) {
+    const int base = pyramid_size(params, environment);
+    if (base == params.size && base <= environment.equivalent_size()) return {level_0.texels, base};
+    context.expect(6.0 * base * base);
+    Level resampled = empty_level(base);
+    environment.resample_area(base, each_on(context, base), resampled.texels);
+    return {resampled.texels, base};
+}
+
+Json sample_levels(const ProbeParams& params, const Method& method, const Environment& environment,
+                   Context& context, Image& image) {
+    const pbr::CubePyramid pyramid = make_pyramid(params, environment, image.levels[0], context);
+    Json notes = Json::array();
+    fill_levels(params, samples_of_level(params, context.accuracy(), 1) * 0.01, context, image,
+                [&](int l, double alpha) {
+                    const pbr::LdMethod ld{
+                        method.integrator == Integrator::is ? pbr::LdEstimator::importance_sampling
+                                                            : pbr::LdEstimator::filtered_importance_sampling,
+                        samples_of_level(params, context.accuracy(), l), params.level_bias, params.seed};
+                    notes.push_back({{"samples", ld.samples}});
+                    return [integrator = pbr::LdIntegrator(ld, alpha, nullptr, &pyramid)](
+                               int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb) {
+                        return integrator.integrate(size, texels, rgb);
+                    };
+                });
+    return notes;
+}
+
+Json sum_levels(const ProbeParams& params, const Environment& environment, Context& context, Image& image) {
+    const pbr::PatchBlocks blocks = environment.blocks();
+    const double n = environment.equivalent_size();
+    Json notes = Json::array();
+    fill_levels(params, 6 * n * n * 1e-3, context, image, [&](int, double alpha) {
+        notes.push_back(Json::object());
+        return [integrator = pbr::LdIntegrator({}, alpha, &blocks, nullptr)](
+                   int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb) {
+            return integrator.integrate(size, texels, rgb);
+        };
+    });
+    return notes;
+}
+
+Json solve_levels(const ProbeParams& params, const Method& method, const Environment& environment,
+                  Context& context, Image& image) {
+    if (level_count(params) < 2) return Json::array();
+    const pbr::ForEach each = each_on(context, 0);
+    const pbr::LdHarmonic harmonic = environment.harmonic(alpha_of_level(params, 1), method.max_error, each);
+    Json notes = Json::array();
+    fill_levels(params, 0.1, context, image, [&](int, double alpha) {
+        const auto level = std::make_shared<pbr::LdHarmonic::Level>(harmonic.level(alpha, each));
+        notes.push_back({{"bands", level->bands()},
+                         {"truncation_error", level->truncation_error()},
+                         {"bright_texels_apart", harmonic.bright_texels()}});
+        return [level](int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb) {
+            std::vector<glm::dvec3> directions;
+            for (const pbr::CubeTexel& texel : texels)
+                directions.push_back(pbr::cubemap_texel_direction(texel, size));
+            return texels.size() + level->integrate(directions, rgb);
+        };
+    });
+    return notes;
+}
+
+}  // namespace
+
+Level empty_level(int size) {
+    return {size, size, std::vector<float>(static_cast<std::size_t>(size) * size * 18)};
+}
+
+pbr::ForEach each_on(Context& context, double work) {
+    return [&context, work](int count, const std::function<void(int)>& body) {
+        const std::int64_t grain =
+            std::max(1, count / 512);  // few enough tasks to cost nothing, enough to share
+        context.parallel_for(count, grain, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t i = begin; i < end; ++i) body(static_cast<int>(i));
+            context.advance(work * static_cast<double>(end - begin));
+        });
+    };
+}
+
+Json filter_levels(const ProbeParams& params, const Method& method, const Environment& environment,
+                   Context& context, Image& image) {
+    switch (method.integrator) {
+        case Integrator::harmonic:
+            return solve_levels(params, method, environment, context, image);
+        case Integrator::reference:
+            return sum_levels(params, environment, context, image);
+        default:
+            return sample_levels(params, method, environment, context, image);
+    }
+}
+
+}  // namespace pbrbake::probe

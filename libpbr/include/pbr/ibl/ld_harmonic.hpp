@@ -1,0 +1,85 @@
+#pragma once
+// LD by spherical harmonics, with the brightest texels apart.
+//
+// A picture's few texels that hold much of its light - suns, lamps - would need high degrees, and ring where
+// these are cut off. They are taken out, and added to each output texel by the exact sum; what is left is
+// filtered by ibl/harmonic_filter.hpp. Both parts are the integral of the kernel over constant texels, so the
+// estimator converges to LdEstimator::exact.
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pbr/ibl/cubemap.hpp"
+#include "pbr/ibl/environment.hpp"
+#include "pbr/ibl/harmonic_filter.hpp"
+#include "pbr/ibl/patches.hpp"
+
+namespace pbr {
+
+/// A picture ready to be filtered at any alpha from a smallest one up.
+class LdHarmonic {
+  public:
+    /// Transforms a picture for lobes of alpha >= smallest_alpha, in (0, 1], so that the root mean square
+    /// error of a level over its mean stays below max_error > 0 (measured: a tenth of it and less). The
+    /// picture must outlive this.
+    LdHarmonic(const EquirectView& source, double smallest_alpha, double max_error, const ForEach& each);
+    LdHarmonic(const CubeView& source, double smallest_alpha, double max_error, const ForEach& each);
+
+    /// One roughness. Must not outlive the LdHarmonic it came from.
+    class Level {
+      public:
+        /// RGB in `directions` (unit vectors, world), never negative; `rgb_out` holds 3 floats each.
+        /// Directions that lie together cost least. Returns the kernel evaluations that bright texels took.
+        /// Thread-safe.
+        std::uint64_t integrate(std::span<const glm::dvec3> directions, std::span<float> rgb_out) const;
+
+        /// The highest degree kept.
+        int bands() const { return bands_; }
+
+        /// Root mean square, over the mean, of what the degrees above bands() held, by Parseval's theorem on
+        /// the degrees that were analysed.
+        double truncation_error() const { return truncation_error_; }
+
+      private:
+        friend class LdHarmonic;
+        Level(const LdHarmonic& of, double alpha, const ForEach& each);
+        int band_limit(const LdHarmonic& of, std::span<const double> kernel);
+
+        double alpha_;
+        double truncation_error_ = 0;
+        int bands_;
+        std::optional<HarmonicGrid> grid_;
+        const PatchBlocks* bright_;
+    };
+
+    /// Prepares a level. alpha in [smallest_alpha, 1].
+    Level level(double alpha, const ForEach& each) const { return {*this, alpha, each}; }
+
+    /// Degrees that lobes of alpha in (0, 1] need for an error: up to where |k_l|, which falls like x K1(x)
+    /// at x = 2 alpha l, is a tenth of it, and enough for the kink of wide lobes at the horizon, whose tail
+    /// falls like l^-5/2.
+    static int bands_for(double alpha, double max_error);
+
+    /// The highest degree analysed.
+    int bands() const { return spectrum_->bands(); }
+
+    /// Texels that are taken apart: those that hold more than 1e-3 of a channel's light and are more than 20
+    /// times its mean.
+    int bright_texels() const { return static_cast<int>(bright_.size()); }
+
+  private:
+    template <class View>
+    void prepare(const View& source, int rows, double smallest_alpha, const ForEach& each);
+
+    double max_error_;
+    std::vector<CubeTexel> bright_;
+    std::optional<PatchBlocks> bright_blocks_;
+    std::optional<HarmonicSpectrum> spectrum_;
+    double mean_;  ///< of what is left, over channels
+};
+
+}  // namespace pbr

@@ -1,0 +1,217 @@
+#include "pbr/ibl/harmonic_filter.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "pbr/numerics/elementary.hpp"
+#include "pbr/numerics/fourier.hpp"
+#include "pbr/numerics/quadrature.hpp"
+#include "src/ibl/lat_long_grid.hpp"
+#include "src/ibl/ring_modes.hpp"
+#include "src/ibl/spread_cube.hpp"
+#include "src/simd/legendre_kernel.hpp"
+
+namespace pbr {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kElement = 2 * kFourierLanes;
+
+/// Rings of a picture, with the integral over each constant texel: its sinc, from the first texel's centre
+/// on.
+RingSource rings_of(const EquirectView& source, int bands, std::span<const CubeTexel> without) {
+    RingSource rings{source.width, source.height, {}, {}};
+    rings.read = [source, without](int y, int channel, double* out) {
+        const float* texel = source.texel(0, y) + channel;
+        for (int x = 0; x < source.width; ++x) out[x * kElement] = static_cast<double>(texel[x * 3]);
+        const auto row = std::equal_range(without.begin(), without.end(), CubeTexel{0, 0, y},
+                                          [](const CubeTexel& p, const CubeTexel& q) { return p.y < q.y; });
+        for (auto bright = row.first; bright != row.second; ++bright) out[bright->x * kElement] = 0;
+    };
+    for (int m = 0; m <= bands; ++m) {
+        const double half = static_cast<double>(m) / source.width;
+        const SinCos angle = sin_cos_pi(half);
+        const double scale = 2 * kPi / source.width * (m == 0 ? 1 : angle.sin / (kPi * half));
+        rings.factors.emplace_back(scale * angle.cos, -scale * angle.sin);
+    }
+    return rings;
+}
+
+/// The points of all northern rows, and their weights.
+struct RowPoints {
+    std::vector<double> colatitudes_rad, weights;
+};
+
+RowPoints row_points(int height, int points) {
+    const QuadratureRule rule = gauss_legendre(points);
+    RowPoints result;
+    for (int y = 0; y < (height + 1) / 2; ++y) {
+        double sum = 0;
+        const std::size_t first = result.weights.size();
+        for (int i = 0; i < points; ++i) {
+            const double v = (y + rule.nodes[i]) / height;
+            result.colatitudes_rad.push_back(v * kPi);
+            result.weights.push_back(rule.weights[i] * sin_cos_pi(v).sin);
+            sum += result.weights.back();
+        }
+        // cos a - cos b = 2 sin((a + b)/2) sin((b - a)/2); the middle row of an odd number is its own mirror
+        // image.
+        const double area = 2 * sin_cos_pi((y + 0.5) / height).sin * sin_cos_pi(0.5 / height).sin;
+        const double share = 2 * y + 1 == height ? 0.5 : 1;
+        for (std::size_t i = first; i < result.weights.size(); ++i) result.weights[i] *= share * area / sum;
+    }
+    return result;
+}
+
+}  // namespace
+
+int points_a_row(int height, double alpha, double max_error) {
+    // A Gauss rule of n points acts on degree l as the exact mean over a row of height h up to (l h)^(2n)
+    // n!^4 /
+    // ((2n + 1) (2n)!^3), and k_l = x K1(x), x = 2 alpha l, weights it: x^(2n+1) K1(x) is at most 1.16, 11
+    // and 260 for n = 1, 2, 3.
+    const double reach = kPi / height / (2 * alpha), allowed = max_error / 10;
+    if (1.16 * reach * reach / 24 < allowed) return 1;
+    if (11 * std::pow(reach, 4) / 4320 < allowed) return 2;
+    return std::max(3, static_cast<int>(std::ceil(2 * reach)) + 2);
+}
+
+HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, int bands, int points_a_row,
+                                   const ForEach& each, std::span<const CubeTexel> without)
+    : HarmonicSpectrum(bands, source.world_to_source) {
+    assert(points_a_row >= 1);
+    RingModes modes = analyse_rings(rings_of(source, bands, without), each);
+    const RowPoints points = row_points(source.height, points_a_row);
+    integrate(modes, points.colatitudes_rad, points.weights, points_a_row, each);
+}
+
+HarmonicSpectrum::HarmonicSpectrum(const CubeView& source, int bands, int points_a_side, const ForEach& each,
+                                   std::span<const CubeTexel> without)
+    : HarmonicSpectrum(bands, glm::dmat3(1)) {
+    assert(points_a_side >= 1);
+    const SpreadCube grid(source, bands, points_a_side, without, each);
+    RingModes modes = analyse_rings(grid.rings(bands), each);
+    integrate(modes, grid.colatitudes_rad(), std::vector<double>(grid.colatitudes_rad().size(), 1.0), 1,
+              each);
+}
+
+HarmonicSpectrum::HarmonicSpectrum(int bands, const glm::dmat3& world_to_source)
+    : bands_(bands),
+      world_to_source_(world_to_source),
+      coefficients_(static_cast<std::size_t>(bands + 1) * (bands + 2) / 2 * kParts) {
+    assert(bands >= 0);
+}
+
+void HarmonicSpectrum::integrate(RingModes& modes, const std::vector<double>& colatitudes_rad,
+                                 const std::vector<double>& weights, int points_a_ring, const ForEach& each) {
+    const Rings rings(colatitudes_rad);
+    each(bands_ + 1, [&](int m) {
+        const int first = rings.first(m, std::max(1, bands_));
+        std::vector<double> values(static_cast<std::size_t>(2 * kParts) * rings.padded());
+        for (int part = 0; part < 2 * kParts; ++part) {
+            const double* from = modes.part(m, part / kParts, part % kParts);
+            double* to = &values[static_cast<std::size_t>(part) * rings.padded()];
+            for (std::size_t i = static_cast<std::size_t>(first); i < weights.size(); ++i)
+                to[i] = weights[i] * from[i / points_a_ring];
+        }
+        legendre_analyse(rings, LegendreOrder(m, bands_), first, values.data(),
+                         &values[static_cast<std::size_t>(kParts) * rings.padded()],
+                         &coefficients_[start(m)]);
+    });
+}
+
+std::size_t HarmonicSpectrum::start(int order) const {
+    return (static_cast<std::size_t>(order) * (bands_ + 1) -
+            static_cast<std::size_t>(order) * (order - 1) / 2) *
+           kParts;
+}
+
+std::span<const double, 6> HarmonicSpectrum::coefficient(int degree, int order) const {
+    return std::span<const double, 6>(
+        &coefficients_[start(order) + static_cast<std::size_t>(degree - order) * kParts], 6);
+}
+
+std::span<const double> HarmonicSpectrum::of_order(int order) const {
+    return {&coefficients_[start(order)], static_cast<std::size_t>(bands_ - order + 1) * kParts};
+}
+
+double HarmonicSpectrum::power(int degree) const {
+    double sum = 0;
+    for (int m = 0; m <= degree; ++m)
+        for (const double part : coefficient(degree, m)) sum += (m == 0 ? 1 : 2) * part * part;
+    return sum;
+}
+
+HarmonicGrid::HarmonicGrid(const HarmonicSpectrum& spectrum, std::span<const double> kernel,
+                           const ForEach& each)
+    : world_to_source_(spectrum.world_to_source()) {
+    const int bands = static_cast<int>(kernel.size()) - 1;
+    assert(bands >= 0 && bands <= spectrum.bands());
+    rows_ = grid_rows(bands);
+    columns_ = 2 * fast_fourier_size(rows_);
+    stride_ = columns_ + 2 * kBorder;
+    texels_.resize(static_cast<std::size_t>(stride_) * (rows_ + 2 * kBorder) * 4);
+
+    const int pairs = rows_ / 2;
+    std::vector<double> colatitudes;
+    for (int y = 0; y < pairs; ++y) colatitudes.push_back((y + 0.5) / rows_ * kPi);
+    const Rings rings(colatitudes);
+    RingModes modes(bands + 1, pairs);
+    each(bands + 1, [&](int m) {
+        const LegendreOrder legendre(m, bands);
+        std::vector<double> filtered(static_cast<std::size_t>(legendre.degrees()) * kParts);
+        const std::span<const double> coefficients = spectrum.of_order(m);
+        for (std::size_t i = 0; i < filtered.size(); ++i)
+            filtered[i] =
+                (m == 0 ? 1 : 2) * kernel[static_cast<std::size_t>(m) + i / kParts] * coefficients[i];
+        legendre_synthesise(rings, legendre, rings.first(m, std::max(1, bands)), filtered.data(),
+                            modes.part(m, 0, 0), modes.part(m, 1, 0));
+    });
+
+    synthesise_rings(
+        modes, columns_, rows_,
+        [&](int y, int channel, const double* in) {
+            for (int x = 0; x < columns_; ++x) at(y, x)[channel] = static_cast<float>(in[x * kElement]);
+        },
+        each);
+    fill_border();
+}
+
+void HarmonicGrid::fill_border() {
+    const auto copy = [&](int row, int column, int from_row, int from_column) {
+        std::copy_n(at(from_row, from_column), 4, at(row, column));
+    };
+    for (int k = 1; k <= kBorder; ++k)  // over a pole the other side's rows follow
+        for (int x = 0; x < columns_; ++x) {
+            const int opposite = (x + columns_ / 2) % columns_;
+            copy(-k, x, k - 1, opposite);
+            copy(rows_ - 1 + k, x, rows_ - k, opposite);
+        }
+    for (int y = -kBorder; y < rows_ + kBorder; ++y)
+        for (int k = 1; k <= kBorder; ++k) {
+            copy(y, -k, y, columns_ - k);
+            copy(y, columns_ - 1 + k, y, k - 1);
+        }
+}
+
+std::array<float, 3> HarmonicGrid::sample(const glm::dvec3& direction) const {
+    const glm::dvec2 point = equirect_point(world_to_source_ * direction);
+    const double px = point.x * columns_, py = point.y * rows_ - 0.5;
+    const int x = std::min(static_cast<int>(px), columns_ - 1), y = static_cast<int>(std::floor(py));
+    const std::array<double, 6> wide_x = lagrange_weights(px - x), wide_y = lagrange_weights(py - y);
+    float wx[6], wy[6];
+    for (int i = 0; i < 6; ++i) wx[i] = static_cast<float>(wide_x[i]), wy[i] = static_cast<float>(wide_y[i]);
+    float sum[4] = {0, 0, 0, 0};
+    for (int j = 0; j < 6; ++j) {
+        const float* p = &texels_[((y - 2 + j + kBorder) * stride_ + x - 2 + kBorder) * 4];
+        float row[4] = {0, 0, 0, 0};
+        for (int i = 0; i < 6; ++i)
+            for (int c = 0; c < 4; ++c) row[c] += wx[i] * p[i * 4 + c];
+        for (int c = 0; c < 4; ++c) sum[c] += wy[j] * row[c];
+    }
+    return {sum[0], sum[1], sum[2]};
+}
+
+}  // namespace pbr

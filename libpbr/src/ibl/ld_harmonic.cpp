@@ -1,0 +1,164 @@
+#include "pbr/ibl/ld_harmonic.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "pbr/ibl/ld.hpp"
+#include "pbr/ibl/zonal_harmonics.hpp"
+#include "pbr/ibl/zonal_kernel.hpp"
+#include "pbr/numerics/elementary.hpp"
+
+namespace pbr {
+namespace {
+
+constexpr double kBrightShare = 1e-3, kBrightOverMean = 20;
+
+/// Rows of texels of a picture, those of a cube map's faces one after the other.
+int row_count(const EquirectView& source) { return source.height; }
+int row_count(const CubeView& source) { return 6 * source.size; }
+int row_width(const EquirectView& source) { return source.width; }
+int row_width(const CubeView& source) { return source.size; }
+CubeTexel texel_of(const EquirectView&, int row, int x) { return {0, x, row}; }
+CubeTexel texel_of(const CubeView& source, int row, int x) {
+    return {row / source.size, x, row % source.size};
+}
+const float* rgb_of(const EquirectView& source, const CubeTexel& texel) {
+    return source.texel(texel.x, texel.y);
+}
+const float* rgb_of(const CubeView& source, const CubeTexel& texel) {
+    return source.texel(texel.face, texel.x, texel.y);
+}
+
+/// Solid angles; a cube map's by the density at the centre, which is near enough to choose texels by.
+double solid_angle_of(const EquirectView& source, const CubeTexel& texel) {
+    return equirect_texel_solid_angle(source.width, source.height, texel.y);
+}
+double solid_angle_of(const CubeView& source, const CubeTexel& texel) {
+    const double s = cube_coordinate(texel.x, source.size), t = cube_coordinate(texel.y, source.size);
+    const double q = 1 + s * s + t * t;
+    return 4.0 / source.size / source.size / (q * std::sqrt(q));
+}
+
+struct RowLight {
+    std::array<double, 3> flux{};
+    std::array<float, 3> largest{};
+};
+
+template <class View>
+RowLight light_of_row(const View& source, int row) {
+    RowLight light;
+    for (int x = 0; x < row_width(source); ++x) {
+        const CubeTexel texel = texel_of(source, row, x);
+        const double solid_angle = solid_angle_of(source, texel);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float value = rgb_of(source, texel)[c];
+            light.flux[c] += solid_angle * static_cast<double>(value);
+            light.largest[c] = std::max(light.largest[c], value);
+        }
+    }
+    return light;
+}
+
+/// Texels, by rows, that hold more than their share of any channel's light.
+template <class View>
+std::vector<CubeTexel> find_bright_texels(const View& source, const ForEach& each) {
+    std::vector<RowLight> rows(static_cast<std::size_t>(row_count(source)));
+    each(row_count(source),
+         [&](int row) { rows[static_cast<std::size_t>(row)] = light_of_row(source, row); });
+    std::array<double, 3> flux{};
+    for (const RowLight& row : rows)
+        for (std::size_t c = 0; c < 3; ++c) flux[c] += row.flux[c];
+    std::vector<CubeTexel> bright;
+    for (int row = 0; row < row_count(source); ++row)
+        for (int x = 0; x < row_width(source); ++x) {
+            const CubeTexel texel = texel_of(source, row, x);
+            const double solid_angle = solid_angle_of(source, texel);
+            bool of_row = false, of_texel = false;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double value = static_cast<double>(rgb_of(source, texel)[c]);
+                const double mean = flux[c] / (4 * std::numbers::pi);
+                of_texel |= value * solid_angle > kBrightShare * flux[c] && value > kBrightOverMean * mean;
+                of_row |= static_cast<double>(rows[static_cast<std::size_t>(row)].largest[c]) >
+                          kBrightOverMean * mean;
+            }
+            if (!of_row) break;
+            if (of_texel) bright.push_back(texel);
+        }
+    return bright;
+}
+
+}  // namespace
+
+LdHarmonic::LdHarmonic(const EquirectView& source, double smallest_alpha, double max_error,
+                       const ForEach& each)
+    : max_error_(max_error), bright_(find_bright_texels(source, each)) {
+    prepare(source, source.height, smallest_alpha, each);
+}
+
+LdHarmonic::LdHarmonic(const CubeView& source, double smallest_alpha, double max_error, const ForEach& each)
+    : max_error_(max_error), bright_(find_bright_texels(source, each)) {
+    prepare(source, 2 * source.size, smallest_alpha,
+            each);  // texels are pi / (2 size) high at the middle of a face
+}
+
+template <class View>
+void LdHarmonic::prepare(const View& source, int rows, double smallest_alpha, const ForEach& each) {
+    assert(smallest_alpha > 0 && smallest_alpha <= 1 && max_error_ > 0);
+    if (!bright_.empty()) bright_blocks_.emplace(source, bright_);
+    spectrum_.emplace(source, bands_for(smallest_alpha, max_error_),
+                      points_a_row(rows, smallest_alpha, max_error_), each, bright_);
+    const std::span<const double, 6> average = spectrum_->coefficient(0, 0);
+    mean_ = (average[0] + average[2] + average[4]) / 3 / std::sqrt(4 * std::numbers::pi);
+}
+
+int LdHarmonic::bands_for(double alpha, double max_error) {
+    const double digits = std::clamp(-log2_exact(max_error) / log2_exact(10), 1.0, 6.0);
+    const double for_the_peak = (1.7 + 1.2 * digits) / alpha;
+    const double for_the_kink = 32 * std::pow(2.0, digits - 1);
+    return static_cast<int>(std::ceil(std::max(for_the_peak, for_the_kink)));
+}
+
+LdHarmonic::Level::Level(const LdHarmonic& of, double alpha, const ForEach& each)
+    : alpha_(alpha), bright_(of.bright_blocks_ ? &*of.bright_blocks_ : nullptr) {
+    const std::vector<double> kernel = zonal_ggx(GgxZonalKernel(alpha), of.bands() + 1);
+    bands_ = band_limit(of, kernel);
+    grid_.emplace(*of.spectrum_, std::span(kernel).first(static_cast<std::size_t>(bands_) + 1), each);
+}
+
+int LdHarmonic::Level::band_limit(const LdHarmonic& of, std::span<const double> kernel) {
+    if (!(of.mean_ > 0)) return 0;
+    const double scale = 12 * std::numbers::pi * of.mean_ * of.mean_;  // sphere times channels
+    const double allowed = 0.01 * of.max_error_ * of.max_error_ * scale;
+    double lost = 0;
+    int bands = of.bands();
+    for (; bands > 0; --bands) {
+        const double k = kernel[static_cast<std::size_t>(bands)];
+        const double more = lost + k * k * of.spectrum_->power(bands);
+        if (more > allowed) break;
+        lost = more;
+    }
+    truncation_error_ = std::sqrt(lost / scale);
+    return bands;
+}
+
+std::uint64_t LdHarmonic::Level::integrate(std::span<const glm::dvec3> directions,
+                                           std::span<float> rgb_out) const {
+    std::uint64_t evaluations = 0;
+    std::vector<double> bright;
+    if (bright_) {
+        bright.resize(directions.size() * 3);
+        ld_partial(*bright_, alpha_, directions, bright, evaluations);
+    }
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const std::array<float, 3> soft = grid_->sample(directions[i]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double apart = bright_ ? bright[i * 3 + c] : 0;
+            rgb_out[i * 3 + c] = std::max(0.0f, static_cast<float>(static_cast<double>(soft[c]) + apart));
+        }
+    }
+    return evaluations;
+}
+
+}  // namespace pbr

@@ -1,0 +1,111 @@
+#include "src/ibl/spread_cube.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pbr/numerics/quadrature.hpp"
+#include "src/ibl/lat_long_grid.hpp"
+
+namespace pbr {
+namespace {
+
+/// A point of light in grid coordinates.
+struct Point {
+    float column;  ///< fraction of a grid step beyond `x`
+    float row;     ///< beyond `y`
+    int x, y;
+    double rgb[3];
+};
+
+/// All points of one row of texels of a face, brightest texels left out.
+void add_points(const CubeView& source, int face, int y, const QuadratureRule& rule, int columns, int rows,
+                std::span<const CubeTexel> without, std::vector<Point>& points) {
+    const auto [left_out, end] = std::equal_range(without.begin(), without.end(), CubeTexel{face, 0, y},
+                                                  [](const CubeTexel& p, const CubeTexel& q) {
+                                                      return std::pair(p.face, p.y) < std::pair(q.face, q.y);
+                                                  });
+    for (int x = 0; x < source.size; ++x) {
+        if (std::any_of(left_out, end, [x](const CubeTexel& texel) { return texel.x == x; })) continue;
+        const std::size_t first = points.size();
+        double sum = 0;
+        for (int j = 0; j < rule.size(); ++j)
+            for (int i = 0; i < rule.size(); ++i) {
+                const double s = 2 * (x + rule.nodes[i]) / source.size - 1,
+                             t = 2 * (y + rule.nodes[j]) / source.size - 1;
+                const double length2 = 1 + s * s + t * t,
+                             weight = rule.weights[i] * rule.weights[j] / (length2 * std::sqrt(length2));
+                const glm::dvec2 at = equirect_point(cube_vector(face, s, t));
+                const double column = at.x * columns, row = at.y * rows - 0.5;
+                const double left = std::floor(column), top = std::floor(row);
+                points.push_back({static_cast<float>(column - left),
+                                  static_cast<float>(row - top),
+                                  static_cast<int>(left),
+                                  static_cast<int>(top),
+                                  {weight, 0, 0}});
+                sum += weight;
+            }
+        const float* texel = source.texel(face, x, y);
+        const double solid_angle = cubemap_texel_solid_angle(source.size, x, y);
+        for (std::size_t k = first; k < points.size(); ++k) {
+            const double flux = points[k].rgb[0] / sum * solid_angle;
+            for (int c = 0; c < 3; ++c) points[k].rgb[c] = flux * static_cast<double>(texel[c]);
+        }
+    }
+}
+
+}  // namespace
+
+SpreadCube::SpreadCube(const CubeView& source, int bands, int points_a_side,
+                       std::span<const CubeTexel> without, const ForEach& each)
+    : rows_(grid_rows(bands)),
+      columns_(2 * fast_fourier_size(rows_)),
+      flux_(static_cast<std::size_t>(rows_) * columns_ * 3) {
+    for (int y = 0; y < rows_ / 2; ++y) colatitudes_rad_.push_back((y + 0.5) / rows_ * std::numbers::pi);
+    const QuadratureRule rule = gauss_legendre(points_a_side);
+    std::vector<std::vector<Point>> of_row(static_cast<std::size_t>(6) * source.size);
+    each(6 * source.size, [&](int i) {
+        add_points(source, i / source.size, i % source.size, rule, columns_, rows_, without,
+                   of_row[static_cast<std::size_t>(i)]);
+    });
+    // By grid rows, in the order of the texels, so that sums don't depend on who computes them.
+    std::vector<std::vector<const Point*>> near(static_cast<std::size_t>(rows_) + 1);
+    for (const std::vector<Point>& row : of_row)
+        for (const Point& point : row) near[static_cast<std::size_t>(point.y + 1)].push_back(&point);
+    each(rows_, [&](int target) {
+        // A point's six rows lie from two above it on; over a pole rows go on with the azimuth turned by pi.
+        const auto take = [&](int virtual_row) {
+            const bool across = virtual_row < 0 || virtual_row >= rows_;
+            for (int offset = -2; offset <= 3; ++offset) {
+                const int y = virtual_row - offset;
+                if (y < -1 || y >= rows_) continue;
+                for (const Point* point : near[static_cast<std::size_t>(y + 1)]) {
+                    const double weight = lagrange_weights(
+                        static_cast<double>(point->row))[static_cast<std::size_t>(offset + 2)];
+                    const std::array<double, 6> wx = lagrange_weights(static_cast<double>(point->column));
+                    for (int k = 0; k < 6; ++k) {
+                        const int x = (point->x - 2 + k + columns_ + (across ? columns_ / 2 : 0)) % columns_;
+                        double* rgb = &flux_[(static_cast<std::size_t>(target) * columns_ + x) * 3];
+                        for (int c = 0; c < 3; ++c)
+                            rgb[c] += weight * wx[static_cast<std::size_t>(k)] * point->rgb[c];
+                    }
+                }
+            }
+        };
+        take(target);
+        if (target < 3) take(-1 - target);
+        if (target >= rows_ - 3) take(2 * rows_ - 1 - target);
+    });
+}
+
+RingSource SpreadCube::rings(int bands) const {
+    RingSource rings{
+        columns_, rows_, {}, std::vector<std::complex<double>>(static_cast<std::size_t>(bands) + 1, 1.0)};
+    rings.read = [this](int y, int channel, double* out) {
+        const double* flux = &flux_[static_cast<std::size_t>(y) * columns_ * 3] + channel;
+        for (int x = 0; x < columns_; ++x) out[x * 2 * kFourierLanes] = flux[x * 3];
+    };
+    return rings;
+}
+
+}  // namespace pbr
