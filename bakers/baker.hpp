@@ -31,9 +31,13 @@ inline constexpr std::string_view kBuiltinScheme = "builtin:";
 
 /// A file a bake will read: the Params field that names it, and how to decode it.
 struct Read {
+    /// A picture is decoded and colour-managed; a text is handed over as its bytes.
+    enum class As { picture, text };
+
     std::string field;                  ///< "source": the key in Inputs, and the JSON pointer's last part
     std::string path;                   ///< as in the job, or "builtin:NAME"
-    std::string colour_space = "auto";  ///< of the file
+    std::string colour_space = "auto";  ///< of a picture
+    As as = As::picture;
 };
 
 /// Decoded and colour-managed sources, by Params field.
@@ -64,12 +68,22 @@ struct Certificate {
     std::optional<Figure> headline;
 };
 
-/// What a bake makes: images and the properties that go into its manifest entry.
+/// A text that a bake makes besides its images: written to X.<suffix>.
+struct Document {
+    std::string suffix;  ///< "light.json"
+    Json json;           ///< written as text by run; null: `text` is the document
+    std::string text;
+};
+
+/// What a bake makes: images, documents, and the properties that go into its manifest entry.
 struct Product {
     std::vector<Image> images;  ///< images[0] is written to X.ext; images[i] to X_<name>.ext
     std::string units = "relative";
     double scale = 1;  ///< stored value = scale * value; run sets it when the pixel format is too narrow
-    Json properties;   ///< "levels": […] of a probe, "columns": […] of a table
+    std::vector<Document> documents;
+    std::vector<std::string>
+        warnings;     ///< what was tolerated or is doubtful in the sources, for the run report
+    Json properties;  ///< "levels": […] of a probe, "columns": […] of a table
 };
 
 /// A mistake in a job, at a JSON pointer relative to the bake.

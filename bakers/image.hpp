@@ -8,8 +8,9 @@
 
 namespace pbrbake {
 
-/// How a channel is stored in a file. In memory every channel is float.
-enum class PixelType { half, float32, unorm16, unorm8 };
+/// How a channel is stored in a file. In memory every channel is float. rgbe: three 8-bit mantissas that
+/// share an exponent (Ward 1991, "Real pixels").
+enum class PixelType { half, float32, unorm16, unorm8, rgbe };
 
 /// One mip level: `faces` pictures of height x width texels, channels interleaved, row 0 at the top.
 /// texels.size() == faces * height * width * channels; the face index runs slowest.
@@ -57,7 +58,9 @@ struct SourceImage {
     bool colour_space_assumed = false;
     std::string units = "relative";  ///< "cd/m^2" only where the source says so
     Repairs repairs;
-    std::string hash;  ///< XXH3-128 of the file's bytes, 32 hex digits
+    std::vector<std::byte> bytes;  ///< the whole file, where it was read as a text; then there is no image
+    std::string name;              ///< of such a file, for messages
+    std::string hash;              ///< XXH3-128 of the file's bytes, 32 hex digits
 };
 
 }  // namespace pbrbake

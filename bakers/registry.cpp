@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bakers/dfg/dfg.hpp"
+#include "bakers/ies/ies.hpp"
 #include "bakers/params.hpp"
 #include "bakers/probe/probe.hpp"
 
@@ -29,6 +30,8 @@ Baker make_baker(std::string_view kind, int algorithm_version,
             [=](const Json& json, const Inputs& inputs, const Product& product, Context& context) {
                 return certify(read_params<Params>(json), inputs, product, context);
             },
+            {},
+            {},
             {}};
 }
 
@@ -41,7 +44,11 @@ std::span<const Baker> bakers() {
         Baker probe = make_baker("probe", probe::kAlgorithmVersion, probe::check, probe::reads, probe::bake,
                                  probe::certify);
         probe.builtin = probe::builtin_environment;
-        return std::array{std::move(dfg), std::move(probe)};
+        Baker ies =
+            make_baker("ies", ies::kAlgorithmVersion, ies::check, ies::reads, ies::bake, ies::certify);
+        ies.follow = ies::follow;
+        ies.documents = [](const Json& json) { return ies::documents(read_params<ies::IesParams>(json)); };
+        return std::array{std::move(dfg), std::move(probe), std::move(ies)};
     }();
     return list;
 }

@@ -23,6 +23,11 @@ struct Baker {
     std::function<Certificate(const Json& bake, const Inputs&, const Product&, Context&)> certify;
     std::function<SourceImage(const std::string& name)> builtin =
         {};  ///< a source of the baker's own, "builtin:NAME"
+    /// Files that a source names, relative to its folder: read if they are there. A file leads only into its
+    /// own folder's tree.
+    std::function<std::vector<Read>(const Inputs&)> follow = {};
+    /// Suffixes of the documents that a bake will write.
+    std::function<std::vector<std::string>(const Json& bake)> documents = {};
 };
 
 /// All bakers, in the order of their help texts.

@@ -1,5 +1,6 @@
 #include "cli/command.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "bakers/job/flags.hpp"
@@ -11,8 +12,11 @@ std::vector<Command> commands() {
     std::vector<Command> list{{"bake", "Runs job files", bake_command}};
     for (const Baker& baker : bakers()) {
         const std::string kind(baker.kind);
-        list.push_back({kind, job::title_of(kind),
-                        [kind](const Arguments& arguments) { return one_shot_command(kind, arguments); }});
+        list.push_back({kind, job::title_of(kind), [kind](const Arguments& arguments) {
+                            const bool converts =
+                                kind == "ies" && std::ranges::find(arguments, "--convert") != arguments.end();
+                            return converts ? convert_command(arguments) : one_shot_command(kind, arguments);
+                        }});
     }
     list.push_back(
         {"inspect", "Shows what a product holds: levels, range, energy, certificate", inspect_command});

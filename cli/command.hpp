@@ -23,6 +23,8 @@ std::vector<Command> commands();
 
 ExitCode bake_command(const Arguments& arguments);
 ExitCode one_shot_command(const std::string& kind, const Arguments& arguments);
+/// Of `pbrbake ies --convert`.
+ExitCode convert_command(const Arguments& arguments);
 ExitCode inspect_command(const Arguments& arguments);
 ExitCode demo_command(const Arguments& arguments);
 

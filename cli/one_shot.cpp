@@ -8,6 +8,10 @@ ExitCode one_shot_command(const std::string& kind, const Arguments& arguments) {
     std::vector<Option> required;
     OptionGroup bake{"the bake",
                      {{"o,output", "FILE", "The product; FILE.json beside it records how it was made."}}};
+    if (kind == "ies")
+        bake.options.push_back(
+            {"convert", "",
+             "Bakes nothing, and writes the source as LM-63-2019 (-o X.ies) or EULUMDAT (-o X.ldt).", true});
     std::string usage = "[OPTIONS] ";
     for (const job::Flag& flag : job::flags_of(kind))
         if (flag.is_required) {

@@ -16,6 +16,9 @@ if(PBRBAKE_SANITIZE)
                            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     target_link_options(pbrbake_flags INTERFACE -fsanitize=${PBRBAKE_SANITIZE})
 endif()
+if(PBRBAKE_FUZZ)  # coverage, without which libFuzzer finds no input interesting
+    target_compile_options(pbrbake_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # pbrbake_layer(NAME SOURCES… [PUBLIC targets…] [PRIVATE targets…])
 # One static library a layer of the house. What a layer links is all it can include.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bakers/formats.hpp"
 #include "bakers/io/keys.hpp"
 #include "bakers/io/module_api.hpp"
 
@@ -44,10 +45,20 @@ void check_shape(const Image& image) {
     }
 }
 
-void check_info(std::string_view format, const FileInfo& info) {
-    if (info.pixel != PixelType::half && info.pixel != PixelType::float32)
-        throw unwritable(std::string(format) +
-                         " is written with pixel type half or float; unorm16 and unorm8 can't be");
+/// What a format can't hold, said before its codec runs.
+void check_fits(const Format& format, const Image& image) {
+    const std::string name(format.name);
+    if (image.channel_count() > format.max_channels)
+        throw unwritable(name + " holds up to " + std::to_string(format.max_channels) +
+                         " channels; the image has " + std::to_string(image.channel_count()) + ": use exr");
+    if (!format.is_chain && (image.faces != 1 || image.levels.size() != 1))
+        throw unwritable(name + " holds neither cube maps nor mip levels: use exr, ktx2 or dds");
+}
+
+void check_info(const Format& format, const FileInfo& info) {
+    if (std::ranges::find(format.pixels, info.pixel) == format.pixels.end())
+        throw unwritable(std::string(format.name) + " isn't written with pixel type " +
+                         std::string(pixel_name(info.pixel)));
     for (const auto& [key, value] : info.metadata) {
         if (key.empty() || key.size() > 255 || key.find('\0') != std::string::npos ||
             value.find('\0') != std::string::npos)
@@ -60,17 +71,29 @@ void check_info(std::string_view format, const FileInfo& info) {
 }  // namespace
 
 const std::vector<std::string>& output_formats() {
-    static const std::vector<std::string> formats{"exr", "ktx2"};
-    return formats;
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list;
+        for (const Format& format : formats()) list.emplace_back(format.name);
+        return list;
+    }();
+    return names;
 }
 
 std::vector<std::byte> encode(std::string_view format, const Image& image, const FileInfo& info) {
-    if (format != "exr" && format != "ktx2")
-        throw unwritable("unknown format '" + std::string(format) + "'; allowed: exr, ktx2");
+    const Format* container = find_format(format);
+    if (!container) {
+        std::string names;
+        for (const std::string& name : output_formats()) names.append(names.empty() ? "" : ", ").append(name);
+        throw unwritable("unknown format '" + std::string(format) + "'; allowed: " + names);
+    }
     check_channels(image);
     check_shape(image);
-    check_info(format, info);
-    return format == "exr" ? encode_exr(image, info) : encode_ktx2(image, info);
+    check_fits(*container, image);
+    check_info(*container, info);
+    if (format == "exr") return encode_exr(image, info);
+    if (format == "ktx2") return encode_ktx2(image, info);
+    if (format == "dds") return encode_dds(image, info);
+    return format == "png" ? encode_png16(image) : encode_hdr(image, info);
 }
 
 ReadBack read_product(const std::filesystem::path& path) {
@@ -79,7 +102,11 @@ ReadBack read_product(const std::filesystem::path& path) {
     const std::vector<std::byte> file = read_file(path, ReadLimits{}.max_decoded_bytes * 2);
     if (begins_with(file, "\x76\x2f\x31\x01"sv)) return read_exr_product(file, where);
     if (begins_with(file, "\xABKTX 20\xBB\r\n\x1A\n"sv)) return read_ktx2_product(file, where);
-    throw unreadable(where, "is neither EXR nor KTX2");
+    if (begins_with(file, "DDS "sv)) return read_dds_product(file, where);
+    if (begins_with(file, "\x89PNG\r\n\x1A\n"sv))
+        return read_flat_product("png", PixelType::unorm16, file, where);
+    if (begins_with(file, "#?"sv)) return read_flat_product("hdr", PixelType::rgbe, file, where);
+    throw unreadable(where, "is no EXR, KTX2, DDS, PNG or HDR");
 }
 
 std::vector<std::byte> encode_png8(int width, int height, const std::vector<std::uint8_t>& rgb) {

@@ -1,5 +1,5 @@
 #pragma once
-// The part of KTX 2.0 that we write: uncompressed float textures, 2D and cube.
+// The part of KTX 2.0 that we write: uncompressed float and 16-bit textures, 2D and cube.
 // Section titles refer to the KTX File Format Specification 2.0, and KDF to the Khronos Data Format
 // Specification 1.3.
 
@@ -27,19 +27,23 @@ struct LevelEntry {
     std::uint64_t offset, size, uncompressed_size;
 };
 
-/// One of the six formats.
+/// One of the formats.
 struct Format {
     std::uint32_t vk_format;
     int channels;
     PixelType pixel;
-    std::uint32_t component_bytes() const { return pixel == PixelType::half ? 2 : 4; }
+    std::uint32_t component_bytes() const { return pixel == PixelType::float32 ? 4 : 2; }
     std::uint32_t texel_bytes() const { return component_bytes() * static_cast<std::uint32_t>(channels); }
     /// lcm(texel block size, 4), "mipPadding".
     std::uint32_t alignment() const { return texel_bytes() < 4 ? 4 : texel_bytes(); }
 };
 
-/// VK_FORMAT_R16_SFLOAT, R16G16, R16G16B16A16, R32, R32G32 and R32G32B32A32_SFLOAT.
-inline constexpr std::array<Format, 6> kFormats{{{76, 1, PixelType::half},
+/// VK_FORMAT_R16_SFLOAT, R16G16, R16G16B16A16, R32, R32G32 and R32G32B32A32_SFLOAT; R16_UNORM, R16G16 and
+/// R16G16B16A16_UNORM.
+inline constexpr std::array<Format, 9> kFormats{{{70, 1, PixelType::unorm16},
+                                                 {77, 2, PixelType::unorm16},
+                                                 {91, 4, PixelType::unorm16},
+                                                 {76, 1, PixelType::half},
                                                  {83, 2, PixelType::half},
                                                  {97, 4, PixelType::half},
                                                  {100, 1, PixelType::float32},

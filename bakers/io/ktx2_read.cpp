@@ -1,11 +1,10 @@
 // KTX2 products read back. Every offset and length is held against the file's size before it is used.
 
-#include <half.h>
-
 #include <algorithm>
 #include <bit>
 
 #include "bakers/io/codec.hpp"
+#include "bakers/io/component.hpp"
 #include "bakers/io/decoded.hpp"
 #include "bakers/io/keys.hpp"
 #include "bakers/io/ktx2_format.hpp"
@@ -85,11 +84,7 @@ Level read_level(Bytes data, int width, int height, std::size_t count, std::size
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t c = 0; c < channels; ++c) {
             const std::size_t at = i * format.texel_bytes() + c * bytes;
-            if (format.pixel == PixelType::half)
-                level.texels.push_back(
-                    static_cast<float>(half(half::FromBits, load<std::uint16_t>(data, at))));
-            else
-                level.texels.push_back(load<float>(data, at));
+            level.texels.push_back(load_component(data, at, format.pixel));
         }
     return level;
 }

@@ -1,14 +1,12 @@
 // KTX2 products. No packaged library writes KTX2: this writer follows the specification, and tests hold it
 // against a checker of our own and a parser that isn't ours.
 
-#include <half.h>
-
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <map>
 
 #include "bakers/io/codec.hpp"
+#include "bakers/io/component.hpp"
 #include "bakers/io/keys.hpp"
 #include "bakers/io/ktx2_format.hpp"
 
@@ -47,11 +45,12 @@ std::uint32_t primaries_of(const Image& image, const FileInfo& info) {
     return space != info.metadata.end() && space->second == "acescg" ? 7 : 1;
 }
 
-/// The basic data format descriptor, KDF 1.3, chapter 5: RGBSDA model, linear, a sample a channel, signed
-/// float, whose black and white are -1 and 1.
+/// The basic data format descriptor, KDF 1.3, chapter 5: RGBSDA model, linear, a sample a channel; signed
+/// float, whose black and white are -1 and 1, or unsigned integers, whose are 0 and 65535.
 std::vector<std::byte> data_format_descriptor(const ktx2::Format& format, std::uint32_t primaries) {
     constexpr std::uint32_t kVersion = 2, kModelRgbsda = 1, kTransferLinear = 1;
     constexpr std::uint32_t kFloat = 0x80, kSigned = 0x40, kAlpha = 15;
+    const bool is_float = format.pixel != PixelType::unorm16;
     const auto samples = static_cast<std::uint32_t>(format.channels);
     const std::uint32_t block_size = 24 + 16 * samples, bits = format.component_bytes() * 8;
     Writer out;
@@ -64,10 +63,10 @@ std::vector<std::byte> data_format_descriptor(const ktx2::Format& format, std::u
     out.put(std::uint32_t{0});
     for (std::uint32_t i = 0; i < samples; ++i) {
         const std::uint32_t channel = i == 3 ? kAlpha : i;
-        out.put(i * bits | (bits - 1) << 16 | (channel | kFloat | kSigned) << 24);
+        out.put(i * bits | (bits - 1) << 16 | (channel | (is_float ? kFloat | kSigned : 0)) << 24);
         out.put(std::uint32_t{0});  // sample position
-        out.put(std::bit_cast<std::uint32_t>(-1.f));
-        out.put(std::bit_cast<std::uint32_t>(1.f));
+        out.put(is_float ? std::bit_cast<std::uint32_t>(-1.f) : 0u);
+        out.put(is_float ? std::bit_cast<std::uint32_t>(1.f) : 65535u);
     }
     return std::move(out.bytes());
 }
@@ -99,18 +98,10 @@ void put_level(const Level& level, std::size_t channels, const ktx2::Format& for
     const std::size_t begin = file.size();
     file.resize(begin + count * stored * bytes);
     std::byte* out = file.data() + begin;
-    const bool is_half = format.pixel == PixelType::half;
     const float* texel = level.texels.data();
     for (std::size_t i = 0; i < count; ++i, texel += channels)
-        for (std::size_t c = 0; c < stored; ++c, out += bytes) {
-            const float value = c < channels ? texel[c] : 1.f;
-            if (is_half) {
-                const std::uint16_t stored_bits = half(value).bits();
-                std::memcpy(out, &stored_bits, sizeof stored_bits);
-            } else {
-                std::memcpy(out, &value, sizeof value);
-            }
-        }
+        for (std::size_t c = 0; c < stored; ++c, out += bytes)
+            store_component(out, c < channels ? texel[c] : 1.f, format.pixel);
 }
 
 }  // namespace

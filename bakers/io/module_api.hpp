@@ -14,7 +14,7 @@
 namespace pbrbake::io {
 
 /// Raised when anything in this header changes; a module of another number is refused.
-inline constexpr int kModuleAbi = 1;
+inline constexpr int kModuleAbi = 2;
 
 /// What a file says of its picture before a pixel is decoded.
 struct PictureSpec {
@@ -49,6 +49,9 @@ struct OiioModule {
     /// reader.
     std::unique_ptr<PictureReader> (*open)(const char* format, std::span<const std::byte> file,
                                            std::string& error);
+    /// Linear texels of 16 bits, 1, 3 or 4 channels, in native byte order.
+    bool (*write_png16)(int width, int height, int channels, const std::uint16_t* texels,
+                        std::vector<std::byte>& file, std::string& error);
     bool (*write_png8)(int width, int height, const std::uint8_t* rgb, std::vector<std::byte>& file,
                        std::string& error);
 };

@@ -102,8 +102,8 @@ std::unique_ptr<PictureReader> open(const char* format, std::span<const std::byt
     return nullptr;
 }
 
-bool write_png8(int width, int height, const std::uint8_t* rgb, std::vector<std::byte>& file,
-                std::string& error) {
+bool write_png(const OIIO::ImageSpec& spec, const void* texels, std::vector<std::byte>& file,
+               std::string& error) {
     try {
         configure_once();
         const auto output = OIIO::ImageOutput::create("png");
@@ -114,9 +114,7 @@ bool write_png8(int width, int height, const std::uint8_t* rgb, std::vector<std:
         std::vector<unsigned char> buffer;
         OIIO::Filesystem::IOVecOutput proxy(buffer);
         output->set_ioproxy(&proxy);
-        OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-        spec.attribute("oiio:ColorSpace", "sRGB");
-        if (!output->open("memory.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, rgb) ||
+        if (!output->open("memory.png", spec) || !output->write_image(spec.format, texels) ||
             !output->close()) {
             error = output->geterror();
             return false;
@@ -130,11 +128,26 @@ bool write_png8(int width, int height, const std::uint8_t* rgb, std::vector<std:
     return false;
 }
 
+bool write_png8(int width, int height, const std::uint8_t* rgb, std::vector<std::byte>& file,
+                std::string& error) {
+    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    return write_png(spec, rgb, file, error);
+}
+
+bool write_png16(int width, int height, int channels, const std::uint16_t* texels,
+                 std::vector<std::byte>& file, std::string& error) {
+    OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT16);
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("oiio:UnassociatedAlpha", 1);  // a fourth channel is a number like the others
+    return write_png(spec, texels, file, error);
+}
+
 }  // namespace
 }  // namespace pbrbake::io
 
 extern "C" __attribute__((visibility("default"))) const pbrbake::io::OiioModule* pbrbake_oiio_module() {
     static const pbrbake::io::OiioModule table{pbrbake::io::kModuleAbi, &pbrbake::io::open,
-                                               &pbrbake::io::write_png8};
+                                               &pbrbake::io::write_png16, &pbrbake::io::write_png8};
     return &table;
 }

@@ -4,9 +4,11 @@
 #include <half.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bakers/io/io.hpp"
+#include "bakers/io/rgbe.hpp"
 
 namespace pbrbake::io {
 namespace {
@@ -21,6 +23,8 @@ double limit_of(PixelType pixel) {
         case PixelType::unorm16:
         case PixelType::unorm8:
             return 1;
+        case PixelType::rgbe:
+            return 0x1p126;  // the exponent's byte ends at 2^127
     }
     return 0;
 }
@@ -35,6 +39,7 @@ float round_to(float value, PixelType pixel) {
         case PixelType::half:
             return static_cast<float>(half(value));
         case PixelType::float32:
+        case PixelType::rgbe:
             return value;
         case PixelType::unorm16:
             return to_steps(65535);
@@ -42,6 +47,25 @@ float round_to(float value, PixelType pixel) {
             return to_steps(255);
     }
     return value;
+}
+
+/// Rounds texels to RGBE. With 8 bits a flat region would be off by up to .4 % everywhere; so what rounding
+/// took or gave is carried to the next texel, as long as that has a step as large, and means are kept.
+void round_to_rgbe(std::vector<float>& texels, std::size_t channels) {
+    const std::size_t kept = std::min<std::size_t>(channels, 3);
+    std::array<float, 3> carried{};
+    for (std::size_t i = 0; i < texels.size(); i += channels) {
+        float* texel = &texels[i];
+        const float step = std::max({texel[0], texel[kept / 2], texel[kept - 1]}) / 128;
+        std::array<float, 3> wanted{};
+        for (std::size_t c = 0; c < kept; ++c)
+            wanted[c] = texel[c] + (texel[c] > 0 && std::abs(carried[c]) <= step ? carried[c] : 0);
+        const std::array<float, 3> stored = from_rgbe(rgbe_of(wanted.data(), kept));
+        for (std::size_t c = 0; c < kept; ++c) {
+            carried[c] = wanted[c] - stored[c];
+            texel[c] = stored[c];
+        }
+    }
 }
 
 }  // namespace
@@ -59,8 +83,10 @@ double quantise(std::vector<Image>& images, PixelType pixel) {
     while (peak * scale > limit_of(pixel)) scale /= 2;
 
     for (Image& image : images)
-        for (Level& level : image.levels)
+        for (Level& level : image.levels) {
             for (float& value : level.texels) value = round_to(static_cast<float>(value * scale), pixel);
+            if (pixel == PixelType::rgbe) round_to_rgbe(level.texels, image.channels.size());
+        }
     return scale;
 }
 

@@ -55,6 +55,14 @@ std::optional<Encoding> resolve_encoding(const ReadRequest& request, const Decod
 
 }  // namespace
 
+SourceImage read_text_source(const std::filesystem::path& path) {
+    SourceImage source;
+    source.bytes = read_file(path, kMaxTextBytes);
+    source.name = path.string();
+    source.hash = hash_bytes(source.bytes.data(), source.bytes.size());
+    return source;
+}
+
 SourceImage read_source(const ReadRequest& request) {
     const std::string where = request.path.string();
     const auto working = working_gamut(request.working_space);

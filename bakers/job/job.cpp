@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "bakers/formats.hpp"
 #include "bakers/job/json_text.hpp"
 #include "bakers/job/paths.hpp"
 #include "bakers/job/schema.hpp"
@@ -73,7 +74,7 @@ class Reading {
         bake.kind = json["kind"].get<std::string>();
         bake.name = json["name"].get<std::string>();
         bake.format = json["format"].get<std::string>();
-        bake.pixel = json["pixel"] == "half" ? PixelType::half : PixelType::float32;
+        read_pixel(json, at, bake);
         bake.certify = read_certify(json["certify"].get<std::string>());
         bake.baker = find_baker(bake.kind);
         read_accuracy(json, at, bake);
@@ -85,6 +86,16 @@ class Reading {
         bake.params.erase("name");
         for (const Read& read : bake.baker->reads(json)) read_source(read, at, bake);
         return bake;
+    }
+
+    /// "auto" gives way to what it stands for: records say what was stored.
+    void read_pixel(Json& json, const std::string& at, Bake& bake) {
+        try {
+            bake.pixel = settle_pixel(bake.format, json["pixel"].get<std::string>());
+            json["pixel"] = pixel_name(bake.pixel);
+        } catch (const Error& error) {
+            add(at + "/pixel", error.message());
+        }
     }
 
     static Certify read_certify(const std::string& name) {

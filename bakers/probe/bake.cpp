@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bakers/formats.hpp"
 #include "bakers/probe/chain.hpp"
 #include "bakers/probe/environment.hpp"
 #include "bakers/probe/levels.hpp"
@@ -30,6 +31,9 @@ Json level_properties(const ProbeParams& params, const Json& notes) {
 
 std::vector<Mistake> check(const ProbeParams& params, const std::string& format) {
     std::vector<Mistake> mistakes;
+    if (const Format* container = find_format(format); container && !container->is_chain)
+        mistakes.push_back(
+            {"/format", "found \"" + format + "\", which holds no cube map; allowed: exr, ktx2, dds"});
     const int full = full_chain(params.size);
     if (params.levels > full)
         mistakes.push_back({"/levels", "found " + std::to_string(params.levels) + "; allowed: at most " +

@@ -1,5 +1,6 @@
 #include "bakers/run/bake_one.hpp"
 
+#include <algorithm>
 #include <new>
 #include <sstream>
 
@@ -19,11 +20,16 @@ std::string number_text(double number) {
     return stream.str();
 }
 
+/// "X.light.json" for a product X.exr.
+fs::path document_file(const job::Bake& bake, const std::string& suffix) {
+    return fs::path(bake.file).stem().string() + "." + suffix;
+}
+
 /// A bake on its way: what one stage leaves for the next.
 class BakeRun {
   public:
     BakeRun(const job::Job& job, const job::Bake& bake, const Options& options)
-        : job_(job), bake_(bake), options_(options), report_(plan_bake(job, bake)) {}
+        : job_(job), bake_(bake), options_(options), report_(plan_bake(job, bake)), sources_(bake.sources) {}
 
     BakeReport run() {
         try {
@@ -83,6 +89,22 @@ class BakeRun {
             warn_of(source, image);
             inputs_.emplace(source.read.field, std::move(image));
         }
+        if (!bake_.baker->follow) return;
+        for (const Read& read : bake_.baker->follow(inputs_)) follow(read);
+    }
+
+    /// A file that the first source names. What leads out of that source's folder counts as absent: a
+    /// downloaded file must not choose what is read.
+    void follow(const Read& read) {
+        const fs::path path(read.path);
+        const bool inside =
+            path.is_relative() && std::find(path.begin(), path.end(), fs::path("..")) == path.end();
+        const job::Source source{read, sources_.front().file.parent_path() / path};
+        std::error_code error;
+        if (!inside || !fs::is_regular_file(source.file, error)) return;
+        inputs_.emplace(read.field, io::read_text_source(source.file));
+        report_.reads.push_back(source.file);
+        sources_.push_back(source);
     }
 
     SourceImage builtin(const std::string& path) const {
@@ -93,6 +115,7 @@ class BakeRun {
     }
 
     SourceImage read(const job::Source& source) const {
+        if (source.read.as == Read::As::text) return io::read_text_source(source.file);
         return io::read_source({source.file,
                                 source.read.colour_space,
                                 job_.working_space,
@@ -119,6 +142,7 @@ class BakeRun {
         const auto context = this->context(Stage::bake);
         product_ = bake_.baker->run(bake_.json, inputs_, *context);
         report_.bake_evaluations = context->counts();
+        for (const std::string& warning : product_.warnings) report_.warnings.push_back(warning);
         product_.scale = io::quantise(product_.images, bake_.pixel);
         if (product_.scale != 1)
             report_.warnings.push_back("values exceed what the pixel format holds; they are stored times " +
@@ -140,6 +164,19 @@ class BakeRun {
             outputs_.push_back({file, io::hash_bytes(bytes.data(), bytes.size()), bytes.size()});
             files_.push_back(std::move(bytes));
         }
+        for (const Document& document : product_.documents) add_document(document);
+    }
+
+    void add_document(const Document& document) {
+        const std::string text = document.json.is_null() ? document.text : job::to_text(document.json);
+        const fs::path file = document_file(bake_, document.suffix);
+        for (const job::Bake& other : job_.bakes)
+            if (other.file == file)
+                throw Error(ExitCode::unwritable_output, file.string(),
+                            "is the product of bake \"" + other.name + "\" too; rename one of the two");
+        const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+        outputs_.push_back({file, io::hash_bytes(bytes, text.size()), text.size()});
+        files_.emplace_back(bytes, bytes + text.size());
     }
 
     /// "X_<name>.ext"; refused if it is another bake's own product.
@@ -155,7 +192,7 @@ class BakeRun {
 
     void write() {
         report_.entry =
-            entry(job_, bake_, inputs_, product_, certificate_, report_.bake_evaluations, outputs_);
+            entry(job_, bake_, sources_, inputs_, product_, certificate_, report_.bake_evaluations, outputs_);
         report_.writes.clear();
         for (std::size_t i = 0; i < files_.size(); ++i) {
             const fs::path file = job_.output / outputs_[i].file;
@@ -184,6 +221,7 @@ class BakeRun {
     const job::Bake& bake_;
     const Options& options_;
     BakeReport report_;
+    std::vector<job::Source> sources_;  ///< the bake's, and those that its files name
     Inputs inputs_;
     Product product_;
     Certificate certificate_;
@@ -200,6 +238,9 @@ BakeReport plan_bake(const job::Job& job, const job::Bake& bake) {
     for (const job::Source& source : bake.sources)
         if (!source.file.empty()) report.reads.push_back(source.file);
     report.writes.push_back((job.output / bake.file).lexically_normal());
+    if (bake.baker->documents)
+        for (const std::string& suffix : bake.baker->documents(bake.json))
+            report.writes.push_back((job.output / document_file(bake, suffix)).lexically_normal());
     if (job.record == job::Record::sidecar) report.writes.push_back(sidecar_file(job, bake));
     return report;
 }

@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kEvidenceNames{"exact", "bound", "measured", "estimate"};
 
-Json inputs_json(const job::Bake& bake, const Inputs& inputs) {
+Json inputs_json(std::span<const job::Source> sources, const Inputs& inputs) {
     Json list = Json::array();
-    for (const job::Source& source : bake.sources) {
+    for (const job::Source& source : sources) {
         const SourceImage& image = inputs.at(source.read.field);
         Json input{{"path", source.read.path}};
         if (!image.hash.empty()) input[source.file.empty() ? "revision" : "xxh3"] = image.hash;
@@ -61,16 +61,16 @@ Json figure_json(const Figure& figure) {
     return json;
 }
 
-Json entry(const job::Job& job, const job::Bake& bake, const Inputs& inputs, const Product& product,
-           const Certificate& certificate, const std::map<std::string, std::uint64_t>& work,
-           const std::vector<Output>& outputs) {
+Json entry(const job::Job& job, const job::Bake& bake, std::span<const job::Source> sources,
+           const Inputs& inputs, const Product& product, const Certificate& certificate,
+           const std::map<std::string, std::uint64_t>& work, const std::vector<Output>& outputs) {
     Json json{{"kind", bake.kind},
               {"name", bake.name},
               {"tool", tool_version()},
               {"algorithm_version", bake.baker->algorithm_version},
               {"params", bake.params},
               {"working_space", job.working_space},
-              {"inputs", inputs_json(bake, inputs)},
+              {"inputs", inputs_json(sources, inputs)},
               {"outputs", outputs_json(outputs)},
               {"pixel", bake.params["pixel"]},
               {"units", product.units},

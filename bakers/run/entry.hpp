@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,11 @@ struct Output {
     std::size_t bytes = 0;
 };
 
-/// schemas/sidecar.schema.json describes it. `work` is what the bake counted.
-Json entry(const job::Job& job, const job::Bake& bake, const Inputs& inputs, const Product& product,
-           const Certificate& certificate, const std::map<std::string, std::uint64_t>& work,
-           const std::vector<Output>& outputs);
+/// schemas/sidecar.schema.json describes it. `sources` are the bake's own and
+/// those that they name; `work` is what the bake counted.
+Json entry(const job::Job& job, const job::Bake& bake, std::span<const job::Source> sources,
+           const Inputs& inputs, const Product& product, const Certificate& certificate,
+           const std::map<std::string, std::uint64_t>& work, const std::vector<Output>& outputs);
 
 /// What goes into each container of a product.
 std::map<std::string, std::string> metadata(const job::Job& job, const job::Bake& bake,

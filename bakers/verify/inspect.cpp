@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bakers/formats.hpp"
 #include "bakers/io/io.hpp"
 #include "bakers/job/json_text.hpp"
 #include "pbr/ibl/cubemap.hpp"
@@ -12,20 +13,6 @@
 namespace pbrbake::verify {
 namespace fs = std::filesystem;
 namespace {
-
-std::string pixel_name(PixelType pixel) {
-    switch (pixel) {
-        case PixelType::half:
-            return "half";
-        case PixelType::float32:
-            return "float";
-        case PixelType::unorm16:
-            return "unorm16";
-        case PixelType::unorm8:
-            break;
-    }
-    return "unorm8";
-}
 
 double scale_of(const io::FileInfo& info) {
     double scale = 1;
@@ -105,7 +92,7 @@ Json record_of(const fs::path& file) {
 Inspection inspect(const fs::path& file) {
     const io::ReadBack product = io::read_product(file);
     Inspection inspection{product.format,
-                          pixel_name(product.info.pixel),
+                          std::string(pixel_name(product.info.pixel)),
                           product.image.faces,
                           product.image.channels,
                           scale_of(product.info),

@@ -1,6 +1,6 @@
-# Bakes a copy of JOB in WORK with PROGRAM; each of PRODUCTS must then be in the manifest and pass `inspect`.
+# Bakes a copy of the folder EXAMPLE in WORK with PROGRAM; each of PRODUCTS must then be in the manifest and pass `inspect`.
 file(REMOVE_RECURSE ${WORK})
-file(COPY ${JOB} DESTINATION ${WORK})
+file(COPY ${EXAMPLE}/ DESTINATION ${WORK})
 execute_process(COMMAND ${PROGRAM} bake --quiet ${WORK}/job.json COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${WORK}/baked/manifest.json manifest)
 foreach(product IN LISTS PRODUCTS)

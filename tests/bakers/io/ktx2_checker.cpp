@@ -10,9 +10,10 @@
 namespace pbrbake::io::test {
 namespace {
 
-/// VK_FORMAT_…_SFLOAT: channels and bits.
-const std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> kFloatFormats{
-    {76, {1, 16}}, {83, {2, 16}}, {97, {4, 16}}, {100, {1, 32}}, {103, {2, 32}}, {109, {4, 32}}};
+/// VK_FORMAT_…_SFLOAT, and R16_UNORM, R16G16 and R16G16B16A16: channels and bits.
+const std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> kFormats{
+    {70, {1, 16}}, {77, {2, 16}},  {91, {4, 16}},  {76, {1, 16}}, {83, {2, 16}},
+    {97, {4, 16}}, {100, {1, 32}}, {103, {2, 32}}, {109, {4, 32}}};
 
 class Checker {
   public:
@@ -55,11 +56,12 @@ class Checker {
     }
 
     void check_header() {
-        const auto format = kFloatFormats.find(static_cast<std::uint32_t>(u32(12)));
-        if (format == kFloatFormats.end()) {
+        const auto format = kFormats.find(static_cast<std::uint32_t>(u32(12)));
+        if (format == kFormats.end()) {
             breaches_.push_back("vkFormat " + std::to_string(u32(12)) + " is none that pbrbake writes");
             return;
         }
+        is_unorm_ = u32(12) == 70 || u32(12) == 77 || u32(12) == 91;
         channels_ = format->second.first;
         bits_ = format->second.second;
         width_ = u32(20);
@@ -115,10 +117,12 @@ class Checker {
         expect(number(at + 2, 1) == bits_ - 1, which + "bitLength must be a component's bits less one");
         const std::uint64_t type = number(at + 3, 1);
         expect((type & 15) == (i == 3 ? 15 : i), which + "channelId");
-        expect((type & 0xF0) == 0xC0, which + "qualifiers must be float and signed");
+        expect((type & 0xF0) == (is_unorm_ ? 0 : 0xC0),
+               which + "qualifiers must be float and signed, or none");
         expect(u32(at + 4) == 0, which + "samplePosition must be 0");
-        expect(u32(at + 8) == 0xBF800000u, which + "sampleLower must be -1.0f");
-        expect(u32(at + 12) == 0x3F800000u, which + "sampleUpper must be 1.0f");
+        expect(u32(at + 8) == (is_unorm_ ? 0 : 0xBF800000u), which + "sampleLower must be -1.0f, or 0");
+        expect(u32(at + 12) == (is_unorm_ ? 65535 : 0x3F800000u),
+               which + "sampleUpper must be 1.0f, or 65535");
     }
 
     void check_key_values() {
@@ -195,6 +199,7 @@ class Checker {
     };
     const std::vector<std::byte>& file_;
     std::vector<std::string> breaches_;
+    bool is_unorm_ = false;
     std::uint64_t channels_ = 0, bits_ = 0, width_ = 0, height_ = 0, faces_ = 0, level_count_ = 0;
     Section dfd_, kvd_;
 };

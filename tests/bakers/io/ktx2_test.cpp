@@ -39,7 +39,7 @@ std::vector<std::pair<std::string, Image>> shapes() {
 
 TEST(Ktx2, EveryShapeKeepsToTheSpecification) {
     for (const auto& [name, image] : shapes())
-        for (const PixelType pixel : {PixelType::half, PixelType::float32}) {
+        for (const PixelType pixel : {PixelType::half, PixelType::float32, PixelType::unorm16}) {
             SCOPED_TRACE(name);
             EXPECT_EQ(joined(check_ktx2(encode("ktx2", image, info_with(pixel)))), "");
         }

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "bakers/dfg/params.hpp"
+#include "bakers/formats.hpp"
+#include "bakers/ies/params.hpp"
 #include "bakers/io/io.hpp"
 #include "bakers/job/schema.hpp"
 #include "bakers/probe/params.hpp"
@@ -65,11 +67,23 @@ void expect_enums_agree(const std::string& kind) {
 TEST(JobSchema, NamesEnumerationsAsParamsDo) {
     expect_enums_agree<dfg::DfgParams>("dfg");
     expect_enums_agree<probe::ProbeParams>("probe");
+    expect_enums_agree<ies::IesParams>("ies");
 }
 
 TEST(JobSchema, ListsTheFormatsAndColourSpacesOfIo) {
     EXPECT_EQ(strings(definition("format")["enum"]), io::output_formats());
     EXPECT_EQ(strings(definition("probe")["properties"]["colour_space"]["enum"]), io::colour_spaces());
+}
+
+TEST(JobSchema, NamesEveryPixelTypeOfAFormat) {
+    std::vector<std::string> names{"auto"};
+    for (const Format& format : formats())
+        for (const PixelType pixel : format.pixels) names.emplace_back(pixel_name(pixel));
+    EXPECT_THAT(strings(definition("pixel")["enum"]), testing::IsSubsetOf(names));
+    for (const std::string& name : names)
+        EXPECT_THAT(strings(definition("pixel")["enum"]), testing::Contains(name));
+    EXPECT_EQ(settle_pixel("png", "auto"), PixelType::unorm16);
+    EXPECT_THROW(settle_pixel("png", "half"), Error);
 }
 
 TEST(JobSchema, DescribesEveryProperty) {

@@ -96,7 +96,7 @@ TEST(Flags, AreNamedInMistakes) {
 }
 
 TEST(Flags, GetTheFormatFromTheOutput) {
-    EXPECT_THAT(mistakes("dfg", {}, "out.png"), ElementsAre(StartsWith("-o: found \"out.png\"; allowed:")));
+    EXPECT_THAT(mistakes("dfg", {}, "out.gif"), ElementsAre(StartsWith("-o: found \"out.gif\"; allowed:")));
     for (const char* output : {"", ".exr", "out", "folder/", "."})
         EXPECT_THAT(mistakes("dfg", {}, output), ElementsAre(StartsWith("-o: found"))) << output;
     EXPECT_THAT(mistakes("dfg", {{"format", "ktx2"}}),

@@ -1,0 +1,82 @@
+// 16-bit PNG and Radiance HDR products, read back through OpenImageIO.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "tests/bakers/io/fixtures.hpp"
+
+namespace pbrbake::io::test {
+namespace {
+
+Image picture(int width, int height, const std::vector<std::string>& channels) {
+    Image image;
+    image.channels = channels;
+    Level level{width, height, {}};
+    for (int i = 0; i < width * height * static_cast<int>(channels.size()); ++i)
+        level.texels.push_back(static_cast<float>(std::fmod(i * .37, 1)));
+    image.levels.push_back(std::move(level));
+    return image;
+}
+
+ReadBack round_trip(const char* format, Image image, PixelType pixel, Image& quantised) {
+    TempDir dir;
+    std::vector<Image> images{std::move(image)};
+    quantise(images, pixel);
+    quantised = images[0];
+    FileInfo info;
+    info.pixel = pixel;
+    write_file(dir / "a", encode(format, images[0], info));
+    return read_product(dir / "a");
+}
+
+TEST(Png16, ReadsBackExactly) {
+    for (const auto& channels : std::vector<std::vector<std::string>>{{"Y"}, {"R", "G"}, {"R", "G", "B"}}) {
+        Image quantised;
+        const ReadBack back = round_trip("png", picture(9, 5, channels), PixelType::unorm16, quantised);
+        EXPECT_EQ(back.format, "png");
+        EXPECT_EQ(back.info.pixel, PixelType::unorm16);
+        const std::size_t stored = back.image.channels.size(), kept = channels.size();
+        ASSERT_EQ(stored, kept == 1 ? 1u : 3u);
+        for (std::size_t i = 0; i < 45; ++i)
+            for (std::size_t c = 0; c < stored; ++c)
+                EXPECT_NEAR(back.image.levels[0].texels[i * stored + c],
+                            c < kept ? quantised.levels[0].texels[i * kept + c] : 0, 1e-7);
+    }
+}
+
+TEST(Hdr, ReadsBackExactlyCodedAndFlat) {
+    for (const int width : {3, 8, 300}) {
+        Image image = picture(width, 4, {"R", "G", "B"});
+        for (int i = 0; i < width / 2 * 3; ++i)
+            image.levels[0].texels[static_cast<std::size_t>(i)] = .25f;  // a long run
+        image.levels[0].texels[1] = 3e6f;
+        Image quantised;
+        const ReadBack back = round_trip("hdr", image, PixelType::rgbe, quantised);
+        EXPECT_EQ(back.format, "hdr");
+        EXPECT_EQ(back.image.levels[0].texels, quantised.levels[0].texels);
+    }
+}
+
+TEST(Hdr, RoundingKeepsMeansAndStaysWithinAStep) {
+    Image image = picture(256, 1, {"Y"});
+    for (float& value : image.levels[0].texels) value = .7031f;  // between two mantissas
+    std::vector<Image> images{image};
+    EXPECT_EQ(quantise(images, PixelType::rgbe), 1);
+    const auto& texels = images[0].levels[0].texels;
+    EXPECT_NEAR(std::accumulate(texels.begin(), texels.end(), 0.) / 256, .7031, .7031 * 5e-5);
+    for (const float value : texels) EXPECT_NEAR(value, .7031, .7031 / 128);
+}
+
+TEST(FlatProducts, RefuseCubesAndLevels) {
+    for (const char* format : {"png", "hdr"}) {
+        FileInfo info;
+        info.pixel = std::string(format) == "png" ? PixelType::unorm16 : PixelType::rgbe;
+        EXPECT_THROW(encode(format, marked_image(4, 1, 6, {"R"}), info), Error);
+        EXPECT_THROW(encode(format, marked_image(4, 2, 1, {"R"}), info), Error);
+    }
+}
+
+}  // namespace
+}  // namespace pbrbake::io::test
