@@ -35,7 +35,7 @@ std::string converted(const parse::PhotometricFile& file, const std::filesystem:
 }  // namespace
 
 ExitCode convert_command(const Arguments& arguments) {
-    Options options("ies --convert", "--convert FILE -o FILE",
+    Options options("ies --convert", "FILE -o FILE",
                     "A photometric file in the other format: LM-63-2019 (.ies) or EULUMDAT (.ldt).");
     options.add_positional({{"source", "FILE", "Photometric file: IES LM-63 of any edition, or EULUMDAT."}});
     options.add({"the file",

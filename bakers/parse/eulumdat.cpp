@@ -35,7 +35,7 @@ class Fields {
         if (const auto value = number_of(field)) return *value;
         throw malformed(file_, line(),
                         std::string("found ") + quoted(field) + " as " + std::string(what) +
-                            "; allowed: a finite number");
+                            "; allowed: a finite number up to 1e10");
     }
 
     /// A number that doesn't matter to the light: an empty line, or one that is no number, counts as

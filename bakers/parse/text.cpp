@@ -126,7 +126,7 @@ std::optional<double> number_of(std::string_view word) {
         const bool small = word.find("e-") != word.npos || word.find("E-") != word.npos;
         return small ? std::optional(0.) : std::nullopt;
     }
-    if (error != std::errc{} || !std::isfinite(value)) return {};
+    if (error != std::errc{} || !(std::abs(value) <= kLargestNumber)) return {};
     return value;
 }
 
@@ -162,7 +162,7 @@ double Words::number(std::string_view what) {
     if (!value)
         throw malformed(file_, last_line_,
                         std::string("found ") + quoted(*word) + " as " + std::string(what) +
-                            "; allowed: a finite number");
+                            "; allowed: a finite number up to 1e10");
     return *value;
 }
 

@@ -27,8 +27,11 @@ std::string_view trimmed(std::string_view text);
 /// For messages: in quotes, cut to 40 bytes, control characters as '?'.
 std::string quoted(std::string_view text);
 
-/// The number that a whole word is; nothing for other words, NaN and infinities. Decimal points alone: a
-/// comma parts numbers.
+/// No lamp's number is larger. The bound keeps products of a few of them finite, in float too.
+inline constexpr double kLargestNumber = 1e10;
+
+/// The number that a whole word is; nothing for other words, NaN, infinities and numbers beyond
+/// kLargestNumber. Decimal points alone: a comma parts numbers.
 std::optional<double> number_of(std::string_view word);
 
 /// The shortest decimal that reads back as `value`; finite. Never in a locale's form, and exponents only

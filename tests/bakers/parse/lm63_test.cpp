@@ -175,11 +175,13 @@ TEST(Lm63, RefusesDangerWithOneLineThatSaysWhere) {
     };
     Fixture file;
     file.candela = "100 80 10\n100 nan 0\n";
-    expect(file, "4 lamp.ies:10: found 'nan' as candela values; allowed: a finite number");
+    expect(file, "4 lamp.ies:10: found 'nan' as candela values; allowed: a finite number up to 1e10");
     file.candela = "100 80 10\n100 inf 0\n";
-    expect(file, "4 lamp.ies:10: found 'inf' as candela values; allowed: a finite number");
+    expect(file, "4 lamp.ies:10: found 'inf' as candela values; allowed: a finite number up to 1e10");
     file.candela = "100 80 10\n100 1e999 0\n";
-    expect(file, "4 lamp.ies:10: found '1e999' as candela values; allowed: a finite number");
+    expect(file, "4 lamp.ies:10: found '1e999' as candela values; allowed: a finite number up to 1e10");
+    file.candela = "100 80 10\n100 1e11 0\n";  // products of larger ones would not stay finite
+    expect(file, "4 lamp.ies:10: found '1e11' as candela values; allowed: a finite number up to 1e10");
     file.candela = "100 80 10\n100";
     expect(file, "4 lamp.ies:10: ends where candela values should be; it may be truncated");
     file = {};
