@@ -22,13 +22,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, kRingLanes>;
 using V = hn::Vec<D>;
 
-constexpr double kBig = 0x1p512, kSmall = 0x1p-512;
+constexpr double kSmall = 0x1p-512;
 
 /// P_lm of `count` vectors of rings, one lane-group each, stepping through the degrees.
 template <int count>
 struct Recurrence {
     V x[count], now[count], before[count];
-    V exponent[count];  ///< the functions are now * kBig^exponent; 0 from where they matter
+    V exponent[count];  ///< the functions are now / kSmall^exponent; 0 from where they matter
     bool scaled;
 
     HWY_INLINE void start(const Rings& rings, const LegendreOrder& legendre, int ring, int stride) {
