@@ -1,45 +1,11 @@
-// Any bytes as a photometric file: a web with a finite flux that converts with it, or an error.
+// Any bytes as a photometric file, LM-63 unless it begins as EULUMDAT does.
 
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
+#include <span>
 
-#include "bakers/parse/grid.hpp"
-
-namespace {
-
-using namespace pbrbake;
-
-void expect(bool holds) {
-    if (!holds) std::abort();
-}
-
-void check_conversions(const parse::PhotometricFile& file) {
-    const std::string ies = parse::write_lm63(file);
-    parse::parse_lm63({reinterpret_cast<const std::byte*>(ies.data()), ies.size()}, "fuzz.ies");
-    try {
-        std::vector<std::string> lost;
-        parse::write_eulumdat(file, lost);
-    } catch (const Error& error) {
-        expect(error.code() == ExitCode::unwritable_output);
-    }
-}
-
-}  // namespace
+#include "tests/fuzz/photometry_fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    try {
-        const parse::PhotometricFile file =
-            parse::parse_photometry({reinterpret_cast<const std::byte*>(data), size}, "fuzz.ies");
-        std::vector<parse::Diagnostic> diagnostics;
-        const pbr::PhotometricWeb web = parse::make_web(file, 0, diagnostics);
-        expect(web.flux_lm() >= 0 && web.evaluate_cd({.3, -.2, -.5}) >= 0);
-        pbr::beam_angle_deg(web, pbr::AxialPlane::c0, .5);
-        parse::luminous_opening(file);
-        check_conversions(file);
-    } catch (const Error& error) {
-        expect(error.code() == ExitCode::unreadable_input && !error.message().empty());
-    }
-    return 0;
+    return pbrbake::test::fuzz_photometry(data, size, [](std::span<const std::byte> bytes) {
+        return pbrbake::parse::parse_photometry(bytes, "fuzz.ies");
+    });
 }
