@@ -4,7 +4,8 @@
 // Half vectors have slopes s (cos phi, sin phi) with s = alpha sinh y. Their density D NoH is then tanh y /
 // cosh^2 y over (phi/pi, y), and
 //     E = (2/pi) integral over phi in [0, pi] and y in [0, Y(phi)] of W tanh y / cosh^2 y,
-//     W = G2 VoH / (NoV NoH) = 2 (VoH/NoH) NoL / (NoL root(NoV) + NoV root(NoL)),
+//     W = G2 VoH / (NoV NoH) = 2 (VoH/NoH) NoL / (NoL root(NoV) + NoV root(NoL))   (uncorrelated: the
+//         denominator is (NoV + root(NoV)) (NoL + root(NoL)) / 2),
 // where with V = (vx, 0, vz):  VoH/NoH = vz + vx s cos phi,  NoL = (vz + 2 vx s cos phi - vz s^2) / (1 +
 // s^2). NoL is positive up to one positive root in closed form, s_max = x + sqrt(x^2 + 1) with x = vx
 // cos(phi) / vz: the horizon, where W goes to 0. Panels that end there have nothing but smooth integrands,
@@ -43,7 +44,7 @@ struct Sums {
 /// Adds a node of slope alpha sinh y, without its azimuth's weight. One division: with q = 1 + s^2 and n = q
 /// NoL, W is 2 (VoH/NoH) n / (n root(NoV) + NoV sqrt(alpha^2 q^2 + (1 - alpha^2) n^2)), and it shares its
 /// denominator with VoH = (VoH/NoH) / sqrt(q).
-template <class D, class V = hn::Vec<D>>
+template <DfgVisibility visibility, class D, class V = hn::Vec<D>>
 HWY_INLINE void add_node(D d, const Radius<V>& radius, V sinh, V cosh, double weight, Sums<V>& sums) {
     const V one = hn::Set(d, 1.0);
     const V s = hn::Mul(radius.alpha, sinh), s2 = hn::Mul(s, s), bs = hn::Mul(radius.b, s);
@@ -52,7 +53,10 @@ HWY_INLINE void add_node(D d, const Radius<V>& radius, V sinh, V cosh, double we
     const V n = hn::Max(hn::Zero(d), hn::Sub(hn::Add(voh_over_noh, bs), hn::Mul(radius.vz, s2)));
     const V root_l = hn::Sqrt(
         hn::Add(hn::Mul(radius.alpha2, hn::Mul(q, q)), hn::Mul(radius.one_minus_alpha2, hn::Mul(n, n))));
-    const V smith = hn::Add(hn::Mul(n, radius.root_v), hn::Mul(radius.vz, root_l));
+    const V smith =
+        visibility == DfgVisibility::correlated
+            ? hn::Add(hn::Mul(n, radius.root_v), hn::Mul(radius.vz, root_l))
+            : hn::Mul(hn::Mul(hn::Set(d, 0.5), hn::Add(radius.vz, radius.root_v)), hn::Add(n, root_l));
     const V denominator = hn::Mul(smith, hn::Mul(cosh, hn::Mul(cosh, cosh)));
     const V root_q = hn::Sqrt(q);
     const V inverse = hn::Div(one, hn::Mul(denominator, root_q));
@@ -67,7 +71,7 @@ HWY_INLINE void add_node(D d, const Radius<V>& radius, V sinh, V cosh, double we
 
 /// Sums over the radial nodes for a fixed azimuth a lane: y from 0 to the horizon or `longest`. Nodes come in
 /// pairs x, 1 - x, whose exponentials are each other's reciprocals but for e^end.
-template <class D, class V = hn::Vec<D>>
+template <DfgVisibility visibility, class D, class V = hn::Vec<D>>
 HWY_INLINE Sums<V> radial_sums(D d, const Radius<V>& radius, double longest, const QuadratureRule& rule) {
     const V half = hn::Set(d, 0.5), one = hn::Set(d, 1.0);
     // s_max, without cancellation for either sign of cos phi.
@@ -78,8 +82,8 @@ HWY_INLINE Sums<V> radial_sums(D d, const Radius<V>& radius, double longest, con
     const V e_end = exp(d, end), inverse_e_end = hn::Div(one, e_end);
     Sums<V> sums{hn::Zero(d), hn::Zero(d)};
     const auto add = [&](V y, V e, V inverse, double weight) HWY_ATTR {
-        add_node(d, radius, sinh_from_exp(d, y, e, inverse), hn::Mul(half, hn::Add(e, inverse)), weight,
-                 sums);
+        add_node<visibility>(d, radius, sinh_from_exp(d, y, e, inverse), hn::Mul(half, hn::Add(e, inverse)),
+                             weight, sums);
     };
     const int count = rule.size();
     for (int j = 0; j < count / 2; ++j) {
@@ -96,7 +100,7 @@ HWY_INLINE Sums<V> radial_sums(D d, const Radius<V>& radius, double longest, con
 }
 
 /// A vector of views: E and Fc by the product rule.
-template <class D, class V = hn::Vec<D>>
+template <DfgVisibility visibility, class D, class V = hn::Vec<D>>
 HWY_INLINE Sums<V> integrate(D d, V NoV, double alpha, double longest, const DfgRule& rule) {
     const V one = hn::Set(d, 1.0), a2 = hn::Set(d, alpha * alpha);
     // A view at the horizon is taken as its limit, 1 - E being about .21 NoV / alpha there.
@@ -119,7 +123,7 @@ HWY_INLINE Sums<V> integrate(D d, V NoV, double alpha, double longest, const Dfg
         // dphi = (pi/2) k cosh(k t) / sinh k dt and dt = 2 dnode, and the 2/pi of E.
         const V weight = hn::Mul(hn::Mul(hn::Set(d, rule.azimuth.weights[i]), hn::Mul(k, inverse_sinh_k)),
                                  hn::Add(e, inverse));
-        const Sums<V> along = radial_sums(d, radius, longest, rule.radial);
+        const Sums<V> along = radial_sums<visibility>(d, radius, longest, rule.radial);
         sums.E = hn::Add(sums.E, hn::Mul(weight, along.E));
         sums.Fc = hn::Add(sums.Fc, hn::Mul(weight, along.Fc));
     }
@@ -128,7 +132,9 @@ HWY_INLINE Sums<V> integrate(D d, V NoV, double alpha, double longest, const Dfg
     return sums;
 }
 
-void dfg_row(const double* NoV, std::size_t count, double alpha, const DfgRule& rule, double* E, double* Fc) {
+template <DfgVisibility visibility>
+HWY_INLINE void row(const double* NoV, std::size_t count, double alpha, const DfgRule& rule, double* E,
+                    double* Fc) {
     const hn::ScalableTag<double> d;
     const std::size_t lanes = hn::Lanes(d);
     double buffer[hn::MaxLanes(d)];
@@ -138,12 +144,20 @@ void dfg_row(const double* NoV, std::size_t count, double alpha, const DfgRule& 
         const std::size_t used = std::min(lanes, count - begin);
         std::copy_n(NoV + begin, used, buffer);
         std::fill(buffer + used, buffer + lanes, 1.0);
-        const auto sums = integrate(d, hn::LoadU(d, buffer), alpha, longest, rule);
+        const auto sums = integrate<visibility>(d, hn::LoadU(d, buffer), alpha, longest, rule);
         hn::StoreU(sums.E, d, buffer);
         std::copy_n(buffer, used, E + begin);
         hn::StoreU(sums.Fc, d, buffer);
         std::copy_n(buffer, used, Fc + begin);
     }
+}
+
+void dfg_row(const double* NoV, std::size_t count, double alpha, const DfgMethod& method, double* E,
+             double* Fc) {
+    if (method.visibility == DfgVisibility::correlated)
+        row<DfgVisibility::correlated>(NoV, count, alpha, method.rule, E, Fc);
+    else
+        row<DfgVisibility::uncorrelated>(NoV, count, alpha, method.rule, E, Fc);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -155,9 +169,9 @@ namespace pbr {
 
 HWY_EXPORT(dfg_row);
 
-void dfg_quadrature_row(std::span<const double> NoV, double alpha, const DfgRule& rule, std::span<double> E,
-                        std::span<double> Fc) {
-    HWY_DYNAMIC_DISPATCH(dfg_row)(NoV.data(), NoV.size(), alpha, rule, E.data(), Fc.data());
+void dfg_quadrature_row(std::span<const double> NoV, double alpha, const DfgMethod& method,
+                        std::span<double> E, std::span<double> Fc) {
+    HWY_DYNAMIC_DISPATCH(dfg_row)(NoV.data(), NoV.size(), alpha, method, E.data(), Fc.data());
 }
 
 }  // namespace pbr
