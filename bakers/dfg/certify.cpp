@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bakers/dfg/analytic_fit.hpp"
 #include "bakers/dfg/dfg.hpp"
 #include "bakers/dfg/layout.hpp"
 #include "bakers/dfg/sampled.hpp"
@@ -87,6 +88,34 @@ Figure figure(std::string metric, double value, bool all, const std::string& met
             method + ", " + where, {},    {}};
 }
 
+/// What a shader would be off by that took the analytic fit instead, on a grid over the table's range.
+Figure fit_figure(DfgParams params, Context& context) {
+    constexpr int kGrid = 32;
+    params.terms = {Term::ggx};
+    params.form = Form::scale_bias;
+    const Range smoothest = down(params);
+    std::vector<double> NoV;
+    for (int x = 0; x < kGrid; ++x) NoV.push_back(x / (kGrid - 1.0));
+    double worst = 0;
+    for (int y = 0; y < kGrid; ++y) {
+        const double p = smoothest.lowest + (1 - smoothest.lowest) * y / (kGrid - 1.0);
+        const pbr::DfgMethod method = pbr::DfgMethod::quadrature(1e-3);  // the fit is off by .1 and more
+        const Columns exact = Row(params, method, p, NoV, context, "certify.").evaluate();
+        for (int x = 0; x < kGrid; ++x) {
+            const ScaleBias fit = karis_fit(NoV[x], p);
+            worst = std::max({worst, std::abs(fit.scale - exact[0][x]), std::abs(fit.bias - exact[1][x])});
+        }
+    }
+    return {
+        "analytic_fit_error",
+        worst,
+        Evidence::estimate,
+        "of Karis's fit (2014, after Lazarov), for comparison: what a shader without the table is off by, on "
+        "a grid of 32 x 32",
+        {},
+        {}};
+}
+
 }  // namespace
 
 Certificate certify(const DfgParams& asked, const Inputs&, const Product& product, Context& context) {
@@ -137,6 +166,8 @@ Certificate certify(const DfgParams& asked, const Inputs&, const Product& produc
     const Figure sampled = figure("max_abs_error_sampled", between.sampled, thorough,
                                   "bilinear lookup in stored texels against quadrature to 1e-8", points);
     add(sampled);
+    if (std::find(params.terms.begin(), params.terms.end(), Term::ggx) != params.terms.end())
+        add(fit_figure(params, context));
     certificate.headline = accuracy.as_sampled ? sampled : total;
     return certificate;
 }

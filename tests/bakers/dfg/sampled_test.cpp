@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "bakers/dfg/analytic_fit.hpp"
 #include "bakers/dfg/dfg.hpp"
 #include "bakers/dfg/layout.hpp"
 #include "bakers/dfg/terms.hpp"
@@ -138,6 +139,18 @@ TEST(DfgSampled, WhiteFurnaceOfKullaContyReturnsOne) {
     }
     RecordProperty("worst", std::to_string(worst));
     EXPECT_LE(worst, 2e-3) << worst;
+}
+
+TEST(DfgSampled, CertificateSaysWhatTheTableBuysOverAnAnalyticFit) {
+    const Product product = stored(defaults());
+    Context context(1, {});
+    const Certificate certificate = certify(defaults(), {}, product, context);
+    EXPECT_NEAR(figure(certificate, "analytic_fit_error"), 0.50, 0.01);
+    EXPECT_LT(figure(certificate, "max_abs_error_sampled") * 100, figure(certificate, "analytic_fit_error"));
+    // Where the fit was made to be good, it is: facing views of a rough surface.
+    const pbr::DirectionalAlbedo exact = pbr::dfg_ggx(0.5, 1, pbr::DfgMethod::quadrature(1e-6));
+    EXPECT_NEAR(karis_fit(0.5, 1).scale, exact.E - exact.Fc, 0.01);
+    EXPECT_NEAR(karis_fit(0.5, 1).bias, exact.Fc, 0.01);
 }
 
 TEST(DfgTerms, EachIsBakedOnlyIfAskedForAndLeavesTheOthersAlone) {
