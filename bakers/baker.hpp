@@ -79,6 +79,7 @@ struct Document {
 struct Product {
     std::vector<Image> images;  ///< images[0] is written to X.ext; images[i] to X_<name>.ext
     std::string units = "relative";
+    std::optional<PixelType> pixel;  ///< in place of the job's, where the accuracy chose it
     double scale = 1;  ///< stored value = scale * value; run sets it when the pixel format is too narrow
     std::vector<Document> documents;
     std::vector<std::string>

@@ -18,6 +18,7 @@ namespace pbrbake {
 struct Accuracy {
     std::string name = "production";  ///< draft | production | reference | "" when max_error is stated
     double max_error = 0;             ///< > 0 only where the job states it
+    bool as_sampled = false;          ///< max_error holds between texels too, where a baker offers that
     bool stated() const { return max_error > 0; }
 };
 

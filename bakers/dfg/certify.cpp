@@ -6,166 +6,169 @@
 #include <string>
 #include <vector>
 
+#include "bakers/dfg/analytic_fit.hpp"
 #include "bakers/dfg/dfg.hpp"
 #include "bakers/dfg/layout.hpp"
-#include "pbr/brdf/roughness.hpp"
+#include "bakers/dfg/sampled.hpp"
+#include "bakers/dfg/terms.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbrbake::dfg {
 namespace {
 
 constexpr int kViewsARow = 16;  // checked together: the quadrature is vectorised over views
-constexpr double kTruth = 1e-8;
 
 const pbr::DfgMethod& truth() {
-    static const pbr::DfgMethod method = pbr::DfgMethod::quadrature(kTruth);
+    static const pbr::DfgMethod method = pbr::DfgMethod::quadrature(1e-8);
     return method;
 }
 
-/// The true channels at views of one roughness.
-std::vector<float> true_texels(const DfgParams& params, const std::vector<double>& NoV,
-                               double perceptual_roughness, Context& context) {
-    std::vector<double> E(NoV.size()), Fc(NoV.size());
-    if (has_term(params, Term::ggx)) {
-        pbr::dfg_ggx_row(NoV, pbr::alpha_from_perceptual_roughness(perceptual_roughness), truth(), E, Fc);
-        context.count("certify.ggx", NoV.size() * static_cast<std::uint64_t>(truth().evaluations()));
+struct TexelErrors {
+    double integration = 0;   ///< of the method, before storage
+    double quantisation = 0;  ///< of the pixel format
+    double total = 0;
+    void include(const TexelErrors& other) {
+        integration = std::max(integration, other.integration);
+        quantisation = std::max(quantisation, other.quantisation);
+        total = std::max(total, other.total);
     }
-    const std::size_t channels = static_cast<std::size_t>(column_count(params));
-    std::vector<float> texels(NoV.size() * channels);
-    for (std::size_t i = 0; i < NoV.size(); ++i)
-        write_texel(params, {E[i], Fc[i]}, disney_albedo(params, NoV[i], perceptual_roughness),
-                    &texels[i * channels]);
-    return texels;
-}
+};
 
-/// Bilinear lookup with clamped coordinates, as a GPU does it.
-double lookup(const Image& image, double column, double row, int channel) {
-    const Level& level = image.levels[0];
-    const double x = std::clamp(column, 0.0, level.width - 1.0), y = std::clamp(row, 0.0, level.height - 1.0);
-    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const int x1 = std::min(x0 + 1, level.width - 1), y1 = std::min(y0 + 1, level.height - 1);
-    const double fx = x - x0, fy = y - y0;
-    const auto at = [&](int j, int i) { return static_cast<double>(image.texel(0, 0, j, i)[channel]); };
-    return (1 - fy) * ((1 - fx) * at(y0, x0) + fx * at(y0, x1)) +
-           fy * ((1 - fx) * at(y1, x0) + fx * at(y1, x1));
-}
-
-/// Largest errors over rows of checked points. Reduced in order: the same at any thread count.
-template <class ErrorOfRow>
-double largest(Context& context, int rows, const ErrorOfRow& error_of_row) {
-    std::vector<double> errors(rows);
-    context.parallel_for(rows, 1, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) errors[i] = error_of_row(static_cast<int>(i));
-    });
-    return rows > 0 ? *std::max_element(errors.begin(), errors.end()) : 0;
-}
-
-double texel_error(const DfgParams& params, const Image& image, double scale, int y,
-                   const std::vector<int>& columns, Context& context) {
-    std::vector<double> NoV;
-    for (const int x : columns) NoV.push_back(nov_of_column(params, x));
-    const std::vector<float> truth =
-        true_texels(params, NoV, perceptual_roughness_of_row(params, y), context);
-    const int channels = image.channel_count();
-    double error = 0;
-    for (std::size_t i = 0; i < columns.size(); ++i)
-        for (int c = 0; c < channels; ++c)
-            error = std::max(error, std::abs(image.texel(0, 0, y, columns[i])[c] / scale -
-                                             static_cast<double>(truth[i * channels + c])));
-    return error;
-}
-
-/// Rows of views that each of the two checks can afford, so that together they cost about what the bake did.
-int checked_rows(const DfgParams& params, const Context& context) {
-    const double per_texel =
-        params.integrator == Integrator::quadrature
-            ? pbr::DfgMethod::quadrature(quadrature_error(context.accuracy())).evaluations()
-            : params.samples;
-    const double bake = per_texel * params.width() * params.height();
-    return static_cast<int>(std::clamp(bake / (2.0 * kViewsARow * truth().evaluations()), 2.0, 64.0));
-}
-
-/// The error at texels, storage included: all of them, or some chosen by hash, the hard corner always among
-/// them.
-Figure texel_figure(const DfgParams& params, const Product& product, std::uint64_t seed, Context& context) {
-    const int width = params.width(), height = params.height();
-    // A stated max_error is held against every texel: the largest of some would be a lower bound.
-    const bool all = context.certify_fully() || context.accuracy().stated();
-    const int rows = all ? height : checked_rows(params, context);
-    const double error = largest(context, rows, [&](int i) {
-        if (all) {
-            std::vector<int> columns(width);
-            std::iota(columns.begin(), columns.end(), 0);
-            return texel_error(params, product.images[0], product.scale, i, columns, context);
+TexelErrors texel_errors(const DfgParams& params, const Product& product, int y,
+                         const std::vector<int>& columns, Context& context) {
+    std::vector<double> across;
+    for (const int x : columns) across.push_back(value_of_column(params, x));
+    const double down = value_of_row(params, y);
+    const pbr::DfgMethod method = method_of(params, context.accuracy());
+    const Columns exact = Row(params, truth(), down, across, context, "certify.").evaluate();
+    const Columns baked = Row(params, method, down, across, context, "certify.").evaluate();
+    TexelErrors errors;
+    for (std::size_t c = 0; c < exact.size(); ++c)
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const double stored = product.images[0].texel(0, 0, y, columns[i])[c] / product.scale;
+            errors.include({std::abs(baked[c][i] - exact[c][i]), std::abs(stored - baked[c][i]),
+                            std::abs(stored - exact[c][i])});
         }
-        const int smoothest = params.flip_rows ? height - 1 : 0;
-        const int y = i == 0 ? smoothest
-                             : static_cast<int>(pbr::random_bits(seed, 1, i) % static_cast<unsigned>(height));
-        std::vector<int> columns{0};
-        for (int k = 1; k < kViewsARow; ++k)
-            columns.push_back(
-                static_cast<int>(pbr::random_bits(seed, 2, i, k) % static_cast<unsigned>(width)));
-        return texel_error(params, product.images[0], product.scale, y, columns, context);
-    });
-    const std::string where = all ? "at every texel"
-                                  : "at " + std::to_string(rows * kViewsARow) +
-                                        " texels chosen by hash, the smoothest row and the grazing side "
-                                        "among them; the largest found, so a lower bound";
-    return {"max_abs_error",
-            error,
-            all ? Evidence::measured : Evidence::estimate,
-            "stored values against quadrature to 1e-8, " + where,
-            {},
-            {}};
+    return errors;
 }
 
-/// The error of a shader's bilinear lookup between texels.
-Figure sampled_figure(const DfgParams& params, const Product& product, std::uint64_t seed, Context& context) {
-    const Image& image = product.images[0];
-    const std::size_t channels = static_cast<std::size_t>(image.channel_count());
-    const double lowest = params.min_perceptual_roughness;
-    const int rows = checked_rows(params, context) * (context.certify_fully() ? 16 : 1);
-    const double error = largest(context, rows, [&](int i) {
-        const double perceptual_roughness = lowest + (1 - lowest) * pbr::random_unit(seed, 3, i);
-        std::vector<double> NoV;
-        for (int k = 0; k < kViewsARow; ++k) NoV.push_back(pbr::random_unit(seed, 4, i, k));
-        const std::vector<float> truth = true_texels(params, NoV, perceptual_roughness, context);
-        const double row = row_of_perceptual_roughness(params, perceptual_roughness);
-        double worst = 0;
-        for (std::size_t k = 0; k < NoV.size(); ++k)
-            for (std::size_t c = 0; c < channels; ++c) {
-                const double value = lookup(image, column_of_nov(params, NoV[k]), row, static_cast<int>(c));
-                worst = std::max(
-                    worst, std::abs(value / product.scale - static_cast<double>(truth[k * channels + c])));
-            }
-        return worst;
+/// Evaluations that each of the two checks can afford, so that together they cost about what the bake did.
+double affordable_views(const DfgParams& params, const Context& context) {
+    const double a_texel = method_of(params, context.accuracy()).evaluations();
+    return a_texel * params.width() * params.height() / (2.0 * truth().evaluations());
+}
+
+/// Errors at texels: all of them, or some chosen by hash, the hard corner always among them.
+TexelErrors texel_errors(const DfgParams& params, const Product& product, bool all, int rows,
+                         std::uint64_t seed, Context& context) {
+    const int width = params.width(), height = params.height();
+    const int smoothest = params.flip_rows ? height - 1 : 0;
+    std::vector<TexelErrors> found(rows);
+    context.parallel_for(rows, 1, [&](std::int64_t begin, std::int64_t end) {
+        for (int i = static_cast<int>(begin); i < end; ++i) {
+            std::vector<int> columns(all ? width : kViewsARow);
+            if (all)
+                std::iota(columns.begin(), columns.end(), 0);
+            else
+                for (int k = 1; k < kViewsARow; ++k)
+                    columns[k] =
+                        static_cast<int>(pbr::random_bits(seed, 2, i, k) % static_cast<unsigned>(width));
+            const int hashed = static_cast<int>(pbr::random_bits(seed, 1, i) % static_cast<unsigned>(height));
+            found[i] = texel_errors(params, product, all ? i : i == 0 ? smoothest : hashed, columns, context);
+        }
     });
-    return {"max_abs_error_sampled",
-            error,
-            Evidence::estimate,
-            "bilinear lookup against quadrature to 1e-8, at " + std::to_string(rows * kViewsARow) +
-                " points chosen by hash over NoV in [0, 1] and perceptual roughness from "
-                "min_perceptual_roughness to 1; the largest found, so a lower bound",
-            {},
-            {}};
+    TexelErrors worst;
+    for (const TexelErrors& errors : found) worst.include(errors);
+    return worst;
+}
+
+Figure figure(std::string metric, double value, bool all, const std::string& method,
+              const std::string& where) {
+    return {std::move(metric),     value, all ? Evidence::measured : Evidence::estimate,
+            method + ", " + where, {},    {}};
+}
+
+/// What a shader would be off by that took the analytic fit instead, on a grid over the table's range.
+Figure fit_figure(DfgParams params, Context& context) {
+    constexpr int kGrid = 32;
+    params.terms = {Term::ggx};
+    params.form = Form::scale_bias;
+    const Range smoothest = down(params);
+    std::vector<double> NoV;
+    for (int x = 0; x < kGrid; ++x) NoV.push_back(x / (kGrid - 1.0));
+    double worst = 0;
+    for (int y = 0; y < kGrid; ++y) {
+        const double p = smoothest.lowest + (1 - smoothest.lowest) * y / (kGrid - 1.0);
+        const pbr::DfgMethod method = pbr::DfgMethod::quadrature(1e-3);  // the fit is off by .1 and more
+        const Columns exact = Row(params, method, p, NoV, context, "certify.").evaluate();
+        for (int x = 0; x < kGrid; ++x) {
+            const ScaleBias fit = karis_fit(NoV[x], p);
+            worst = std::max({worst, std::abs(fit.scale - exact[0][x]), std::abs(fit.bias - exact[1][x])});
+        }
+    }
+    return {
+        "analytic_fit_error",
+        worst,
+        Evidence::estimate,
+        "of Karis's fit (2014, after Lazarov), for comparison: what a shader without the table is off by, on "
+        "a grid of 32 x 32",
+        {},
+        {}};
 }
 
 }  // namespace
 
-Certificate certify(const DfgParams& params, const Inputs&, const Product& product, Context& context) {
+Certificate certify(const DfgParams& asked, const Inputs&, const Product& product, Context& context) {
+    DfgParams params = settled(asked);
+    const Level& level = product.images[0].levels[0];
+    params.size = {level.width, level.height};  // which an accuracy as sampled may have chosen
     const std::uint64_t seed = pbr::random_bits(params.seed, 0x646667u);
+    const Accuracy& accuracy = context.accuracy();
     Certificate certificate;
-    if (has_term(params, Term::ggx) && params.integrator == Integrator::quadrature)
-        certificate.figures.push_back({"quadrature_error",
-                                       pbr::dfg_rule(quadrature_error(context.accuracy())).max_error,
-                                       Evidence::bound,
-                                       "promised of E and Fc over the whole domain, and held by a test",
-                                       {},
-                                       {}});
+    const auto add = [&](Figure figure) { certificate.figures.push_back(std::move(figure)); };
+    if (params.integrator == Integrator::quadrature)
+        add({"quadrature_error",
+             pbr::dfg_rule(quadrature_error(accuracy)).max_error,
+             Evidence::bound,
+             "promised of the GGX integrals over the whole domain, and held by a test",
+             {},
+             {}});
 
-    certificate.headline = texel_figure(params, product, seed, context);
-    certificate.figures.push_back(*certificate.headline);
-    certificate.figures.push_back(sampled_figure(params, product, seed, context));
+    // A stated max_error is held against every texel: the largest of some would be a lower bound.
+    const bool all = context.certify_fully() || accuracy.stated();
+    const double views = affordable_views(params, context);
+    const int rows = all ? params.height() : static_cast<int>(std::clamp(views / kViewsARow, 2.0, 64.0));
+    const TexelErrors texels = texel_errors(params, product, all, rows, seed, context);
+    const std::string where = all ? "at every texel"
+                                  : "at " + std::to_string(rows * kViewsARow) +
+                                        " texels chosen by hash, the smoothest row and the grazing side "
+                                        "among them; the largest found, so a lower bound";
+    add(figure("integration_error", texels.integration, all, "before storage, against quadrature to 1e-8",
+               where));
+    add(figure("quantisation_error", texels.quantisation, all, "stored values against those before storage",
+               where));
+    const Figure total =
+        figure("max_abs_error", texels.total, all, "stored values against quadrature to 1e-8", where);
+    add(total);
+
+    const bool thorough = context.certify_fully() || accuracy.as_sampled;
+    // A row of points takes three views a column, and two rows of texels.
+    const int sampled_rows = static_cast<int>(std::clamp(views / (5.0 * params.width()), 2.0, 64.0));
+    const SampledErrors between = sampled_errors(
+        params, &product, truth(), thorough ? Probing::thorough : Probing::some, sampled_rows, seed, context);
+    const std::string points =
+        std::to_string(between.points) +
+        (thorough ? " points, in every cell of the range that a shader reads"
+                  : " points, rows chosen by hash, the smoothest among them; the largest found, so a lower "
+                    "bound");
+    add(figure("interpolation_error", between.interpolation, thorough,
+               "bilinear lookup in exact texels against quadrature to 1e-8", points));
+    const Figure sampled = figure("max_abs_error_sampled", between.sampled, thorough,
+                                  "bilinear lookup in stored texels against quadrature to 1e-8", points);
+    add(sampled);
+    if (std::find(params.terms.begin(), params.terms.end(), Term::ggx) != params.terms.end())
+        add(fit_figure(params, context));
+    certificate.headline = accuracy.as_sampled ? sampled : total;
     return certificate;
 }
 

@@ -1,12 +1,15 @@
 #pragma once
-// The DFG baker: directional albedo tables for the split sum and the Disney diffuse term. README.md has the
-// maths.
+// The DFG baker: tables of directional albedo. README.md has the maths.
 
 #include "bakers/dfg/params.hpp"
+#include "pbr/ibl/dfg.hpp"
 
 namespace pbrbake::dfg {
 
-inline constexpr int kAlgorithmVersion = 1;
+inline constexpr int kAlgorithmVersion = 2;
+
+/// How E and Fc are had, of settled parameters.
+pbr::DfgMethod method_of(const DfgParams& params, const Accuracy& accuracy);
 
 std::vector<Mistake> check(const DfgParams& params, const std::string& format);
 std::vector<Read> reads(const DfgParams& params);

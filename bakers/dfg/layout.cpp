@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pbr/brdf/disney_diffuse.hpp"
+#include "bakers/dfg/targets.hpp"
+#include "bakers/dfg/terms.hpp"
 #include "pbr/brdf/roughness.hpp"
 
 namespace pbrbake::dfg {
@@ -18,59 +19,66 @@ double texel(Align align, double coordinate, int n) {
     return align == Align::ends && n > 1 ? coordinate * (n - 1) : coordinate * n - 0.5;
 }
 
+bool is_over_curvature(const DfgParams& params) { return is_over_curvature(params.terms.front()); }
+
+template <class E>
+void settle(E& value, E fallback) {
+    if (value == E::automatic) value = fallback;
+}
+
 }  // namespace
 
-double nov_of_column(const DfgParams& params, int x) {
+DfgParams settled(DfgParams params) {
+    const TargetLayout& target = layout_of(params.target);
+    if (params.size == std::vector{0}) params.size = {0, 0};
+    if (params.size.front() == 0) params.size.front() = target.width;
+    if (params.size.back() == 0) params.size.back() = target.height;
+    if (params.terms.empty()) params.terms = target.terms;
+    settle(params.disney, target.disney);
+    settle(params.cloth, target.cloth);
+    settle(params.axis, target.axis);
+    settle(params.align, target.align);
+    settle(params.form, target.form);
+    params.flip_rows = params.flip_rows != target.flip_rows;
+    params.target = Target::none;  // settling again changes nothing
+    return params;
+}
+
+double value_of_column(const DfgParams& params, int x) {
     const double u = coordinate(params.align, x, params.width());
+    if (is_over_curvature(params)) return 2 * u - 1;
     return params.axis == Axis::sqrt_nov ? u * u : u;
 }
 
-double perceptual_roughness_of_row(const DfgParams& params, int y) {
+double value_of_row(const DfgParams& params, int y) {
     const int row = params.flip_rows ? params.height() - 1 - y : y;
     const double v = coordinate(params.align, row, params.height());
-    return params.roughness_axis == RoughnessAxis::alpha ? pbr::perceptual_roughness_from_alpha(v) : v;
+    const bool by_alpha = params.roughness_axis == RoughnessAxis::alpha && !is_over_curvature(params);
+    return by_alpha ? pbr::perceptual_roughness_from_alpha(v) : v;
 }
 
-double column_of_nov(const DfgParams& params, double NoV) {
-    return texel(params.align, params.axis == Axis::sqrt_nov ? std::sqrt(NoV) : NoV, params.width());
+double column_of_value(const DfgParams& params, double across) {
+    const double u = is_over_curvature(params)       ? (across + 1) / 2
+                     : params.axis == Axis::sqrt_nov ? std::sqrt(across)
+                                                     : across;
+    return texel(params.align, u, params.width());
 }
 
-double row_of_perceptual_roughness(const DfgParams& params, double perceptual_roughness) {
-    const bool by_alpha = params.roughness_axis == RoughnessAxis::alpha;
-    const double v =
-        by_alpha ? pbr::alpha_from_perceptual_roughness(perceptual_roughness) : perceptual_roughness;
+double row_of_value(const DfgParams& params, double down) {
+    const bool by_alpha = params.roughness_axis == RoughnessAxis::alpha && !is_over_curvature(params);
+    const double v = by_alpha ? pbr::alpha_from_perceptual_roughness(down) : down;
     const double row = texel(params.align, v, params.height());
     return params.flip_rows ? params.height() - 1 - row : row;
 }
 
-bool has_term(const DfgParams& params, Term term) {
-    return std::find(params.terms.begin(), params.terms.end(), term) != params.terms.end();
-}
+Range across(const DfgParams& params) { return {is_over_curvature(params) ? -1.0 : 0.0, 1}; }
 
-int column_count(const DfgParams& params) {
-    int count = 0;
-    for (const Term term : params.terms) count += term == Term::ggx ? 2 : 1;
-    return count;
-}
-
-void write_texel(const DfgParams& params, const pbr::DirectionalAlbedo& ggx, double disney, float* out) {
-    for (const Term term : params.terms) {
-        if (term == Term::disney_diffuse) {
-            *out++ = static_cast<float>(disney);
-            continue;
-        }
-        const bool mix = params.form == Form::mix;
-        *out++ = static_cast<float>(mix ? ggx.Fc : ggx.E - ggx.Fc);
-        *out++ = static_cast<float>(mix ? ggx.E : ggx.Fc);
-    }
-}
-
-double disney_albedo(const DfgParams& params, double NoV, double perceptual_roughness) {
-    return params.disney == Disney::original ? pbr::albedo_disney_diffuse_original(NoV, perceptual_roughness)
-                                             : pbr::albedo_disney_diffuse(NoV, perceptual_roughness);
+Range down(const DfgParams& params) {
+    return {is_over_curvature(params) ? 0.0 : params.min_perceptual_roughness, 1};
 }
 
 double quadrature_error(const Accuracy& accuracy) {
+    if (accuracy.as_sampled) return std::clamp(accuracy.max_error / 100, 1e-8, 1e-6);
     if (accuracy.stated()) return std::max(accuracy.max_error, 1e-8);
     return accuracy.name == "draft" ? 1e-3 : accuracy.name == "reference" ? 1e-8 : 1e-6;
 }

@@ -1,32 +1,33 @@
 #pragma once
-// Where a table's texels lie, and what its columns hold.
+// Where a table's texels lie.
 
 #include "bakers/dfg/params.hpp"
-#include "pbr/ibl/dfg.hpp"
 
 namespace pbrbake::dfg {
 
-/// NoV of column x, and perceptual roughness of row y.
-double nov_of_column(const DfgParams& params, int x);
-double perceptual_roughness_of_row(const DfgParams& params, int y);
+/// The parameters with nothing left automatic: a target's values where the job states none, else the defaults
+/// (128 x 128, ggx, sqrt_nov, ends, scale_bias). flip_rows turns a target's own rows over.
+DfgParams settled(DfgParams params);
 
-/// Continuous texel coordinates (0 at the middle of the first texel) at which a shader finds a view and
-/// roughness.
-double column_of_nov(const DfgParams& params, double NoV);
-double row_of_perceptual_roughness(const DfgParams& params, double perceptual_roughness);
+/// What column x and row y stand for: NoV and perceptual roughness, or NoL and curvature of a subsurface
+/// table. This and what follows take settled parameters.
+double value_of_column(const DfgParams& params, int x);
+double value_of_row(const DfgParams& params, int y);
 
-/// Channels a texel has: two for ggx, one for disney_diffuse.
-int column_count(const DfgParams& params);
+/// Continuous texel coordinates (0 at the middle of the first texel) at which a shader finds such values.
+double column_of_value(const DfgParams& params, double across);
+double row_of_value(const DfgParams& params, double down);
 
-/// Writes a texel's channels from its albedos, in the order of `terms`.
-void write_texel(const DfgParams& params, const pbr::DirectionalAlbedo& ggx, double disney, float* out);
+/// The values that a shader may ask for: NoV or NoL, and perceptual roughness from min_perceptual_roughness,
+/// or curvature.
+struct Range {
+    double lowest, highest;
+};
+Range across(const DfgParams& params);
+Range down(const DfgParams& params);
 
-/// Albedo of the diffuse term that `params.disney` names.
-double disney_albedo(const DfgParams& params, double NoV, double perceptual_roughness);
-
-bool has_term(const DfgParams& params, Term term);
-
-/// The largest quadrature error that an accuracy allows: draft 1e-3, production 1e-6, reference 1e-8.
+/// The largest quadrature error that an accuracy allows: draft 1e-3, production 1e-6, reference 1e-8; a
+/// hundredth of one that is stated as sampled, 1e-6 at most.
 double quadrature_error(const Accuracy& accuracy);
 
 }  // namespace pbrbake::dfg

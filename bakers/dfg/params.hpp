@@ -10,18 +10,23 @@
 namespace pbrbake {
 namespace dfg {
 
-enum class Term { ggx, disney_diffuse };
-enum class Disney { renormalised, original };
-enum class Axis { nov, sqrt_nov };
+enum class Target { none, filament, unity_hdrp, unreal, bevy, babylon, o3de };
+enum class Term { ggx, disney_diffuse, multiscatter, charlie, clear_coat, uncorrelated, eon, subsurface };
+enum class Disney { automatic, renormalised, original, original_minus_half };
+enum class Cloth { automatic, charlie, neubelt };
+enum class Axis { automatic, nov, sqrt_nov };
 enum class RoughnessAxis { perceptual, alpha };
-enum class Align { center, ends };
-enum class Form { scale_bias, mix };
+enum class Align { automatic, center, ends };
+enum class Form { automatic, scale_bias, mix };
 enum class Integrator { quadrature, is };
 
+/// As the job has them; settled() in layout.hpp gives every `automatic`, size 0 and empty `terms` its value.
 struct DfgParams {
-    std::vector<int> size;  ///< n, or width (NoV) and height (roughness)
+    Target target;
+    std::vector<int> size;  ///< n, or width (NoV) and height (roughness); 0: for settled()
     std::vector<Term> terms;
     Disney disney;
+    Cloth cloth;
     Axis axis;
     RoughnessAxis roughness_axis;
     Align align;
@@ -34,9 +39,11 @@ struct DfgParams {
 
     template <class Visit>
     static void fields(Visit&& visit) {
+        visit("target", &DfgParams::target);
         visit("size", &DfgParams::size);
         visit("terms", &DfgParams::terms);
         visit("disney", &DfgParams::disney);
+        visit("cloth", &DfgParams::cloth);
         visit("axis", &DfgParams::axis);
         visit("roughness_axis", &DfgParams::roughness_axis);
         visit("align", &DfgParams::align);
@@ -55,16 +62,28 @@ struct DfgParams {
 }  // namespace dfg
 
 template <>
+struct EnumNames<dfg::Target> {
+    static constexpr std::array<std::string_view, 7> names{"none", "filament", "unity-hdrp", "unreal",
+                                                           "bevy", "babylon",  "o3de"};
+};
+template <>
 struct EnumNames<dfg::Term> {
-    static constexpr std::array<std::string_view, 2> names{"ggx", "disney_diffuse"};
+    static constexpr std::array<std::string_view, 8> names{"ggx",     "disney_diffuse", "multiscatter",
+                                                           "charlie", "clear_coat",     "uncorrelated",
+                                                           "eon",     "subsurface"};
 };
 template <>
 struct EnumNames<dfg::Disney> {
-    static constexpr std::array<std::string_view, 2> names{"renormalised", "original"};
+    static constexpr std::array<std::string_view, 4> names{"auto", "renormalised", "original",
+                                                           "original_minus_half"};
+};
+template <>
+struct EnumNames<dfg::Cloth> {
+    static constexpr std::array<std::string_view, 3> names{"auto", "charlie", "neubelt"};
 };
 template <>
 struct EnumNames<dfg::Axis> {
-    static constexpr std::array<std::string_view, 2> names{"nov", "sqrt_nov"};
+    static constexpr std::array<std::string_view, 3> names{"auto", "nov", "sqrt_nov"};
 };
 template <>
 struct EnumNames<dfg::RoughnessAxis> {
@@ -72,11 +91,11 @@ struct EnumNames<dfg::RoughnessAxis> {
 };
 template <>
 struct EnumNames<dfg::Align> {
-    static constexpr std::array<std::string_view, 2> names{"center", "ends"};
+    static constexpr std::array<std::string_view, 3> names{"auto", "center", "ends"};
 };
 template <>
 struct EnumNames<dfg::Form> {
-    static constexpr std::array<std::string_view, 2> names{"scale_bias", "mix"};
+    static constexpr std::array<std::string_view, 3> names{"auto", "scale_bias", "mix"};
 };
 template <>
 struct EnumNames<dfg::Integrator> {

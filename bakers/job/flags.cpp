@@ -127,8 +127,8 @@ std::optional<Json> convert_array(const std::string& text, const Json& node) {
 }
 
 /// The JSON that a text stands for, or nothing if the node's type can't be written that way. Ranges and names
-/// are for the schema to judge. An object of one property is written as that property's value: `--accuracy
-/// 0.001`.
+/// are for the schema to judge. An object of one required property is written as that property's value:
+/// `--accuracy 0.001`.
 std::optional<Json> convert(const std::string& text, const Json& reference) {
     const Json& node = job_schema().resolve(reference);
     if (node.contains("enum")) {
@@ -149,9 +149,9 @@ std::optional<Json> convert(const std::string& text, const Json& reference) {
                : text == "false"              ? std::optional<Json>(false)
                                               : std::nullopt;
     if (is_type(node, "array")) return convert_array(text, node);
-    if (is_type(node, "object") && node["properties"].size() == 1) {
-        const auto member = node["properties"].begin();
-        if (auto value = convert(text, member.value())) return Json{{member.key(), *value}};
+    if (is_type(node, "object") && node.contains("required") && node["required"].size() == 1) {
+        const auto& member = node["required"][0].get_ref<const std::string&>();
+        if (auto value = convert(text, node["properties"][member])) return Json{{member, *value}};
         return std::nullopt;
     }
     return Json(text);

@@ -108,10 +108,10 @@ class Reading {
         if (!json.contains("accuracy")) return;
         const Json& accuracy = json["accuracy"];
         if (accuracy.is_string()) {
-            bake.accuracy = {accuracy.get<std::string>(), 0};
+            bake.accuracy = {accuracy.get<std::string>()};
             return;
         }
-        bake.accuracy = {"", accuracy["max_error"].get<double>()};
+        bake.accuracy = {"", accuracy["max_error"].get<double>(), accuracy.value("as", "") == "sampled"};
         if (bake.certify == Certify::none)
             add(at + "/certify",
                 std::string("found \"none\", but ") + (own ? "this bake" : "the job") +

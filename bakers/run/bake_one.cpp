@@ -143,11 +143,13 @@ class BakeRun {
         product_ = bake_.baker->run(bake_.json, inputs_, *context);
         report_.bake_evaluations = context->counts();
         for (const std::string& warning : product_.warnings) report_.warnings.push_back(warning);
-        product_.scale = io::quantise(product_.images, bake_.pixel);
+        product_.scale = io::quantise(product_.images, pixel());
         if (product_.scale != 1)
             report_.warnings.push_back("values exceed what the pixel format holds; they are stored times " +
                                        number_text(product_.scale) + " (\"scale\" in the record)");
     }
+
+    PixelType pixel() const { return product_.pixel.value_or(bake_.pixel); }
 
     void certify() {
         const auto context = this->context(Stage::certify);
@@ -157,7 +159,7 @@ class BakeRun {
     }
 
     void encode() {
-        const io::FileInfo info{bake_.pixel, metadata(job_, bake_, product_)};
+        const io::FileInfo info{pixel(), metadata(job_, bake_, product_)};
         for (const Image& image : product_.images) {
             const fs::path file = files_.empty() ? fs::path(bake_.file) : named_file(image.name);
             std::vector<std::byte> bytes = io::encode(bake_.format, image, info);

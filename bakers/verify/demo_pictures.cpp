@@ -22,8 +22,9 @@ double luminance(const glm::dvec3& rgb) { return glm::dot(rgb, kLuminance); }
 /// A table's texel at (NoV, perceptual roughness), bilinear, both ends clamped.
 glm::dvec3 look_up(const BakedImage& table, double NoV, double perceptual_roughness) {
     const Level& level = table.image.levels[0];
-    const double x = std::clamp(NoV * level.width - 0.5, 0.0, level.width - 1.0);
-    const double y = std::clamp(perceptual_roughness * level.height - 0.5, 0.0, level.height - 1.0);
+    // The default layout: sqrt(NoV) and perceptual roughness, the first and last texels at 0 and 1.
+    const double x = std::clamp(std::sqrt(NoV), 0.0, 1.0) * (level.width - 1);
+    const double y = std::clamp(perceptual_roughness, 0.0, 1.0) * (level.height - 1);
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const int x1 = std::min(x0 + 1, level.width - 1), y1 = std::min(y0 + 1, level.height - 1);
     const auto at = [&](int row, int column) {

@@ -67,7 +67,7 @@ TEST(Usage, UnknownWordsExitWithTwoAndASuggestion) {
              {{"dfg", "-o", "/nowhere/a.exr", "--size"}, "missing an argument"},
              {{"dfg", "-o", "/nowhere/a.exr", "--size", "1", "--size", "2"}, "more than once"},
              {{"dfg", "-o", "/nowhere/a.exr", "--size", "big"},
-              "--size: found \"big\"; allowed: integer 1 to 4096"},
+              "--size: found \"big\"; allowed: integer 0 to 4096"},
              {{"dfg", "-o", "/nowhere/a.exr", "--threads", "0"},
               "--threads: found \"0\"; allowed: integer 1 to 1024"},
              {{"dfg"}, "-o: missing"},

@@ -20,7 +20,7 @@ struct RuleSize {
     int azimuth;
     int radial;
 };
-constexpr RuleSize kRuleSizes[] = {{1e-2, 12, 16}, {1e-3, 16, 22}, {1e-4, 24, 26}, {1e-5, 28, 30},
+constexpr RuleSize kRuleSizes[] = {{1e-2, 14, 18}, {1e-3, 16, 22}, {1e-4, 24, 26}, {1e-5, 28, 30},
                                    {1e-6, 32, 36}, {1e-7, 40, 46}, {1e-8, 48, 60}};
 
 DirectionalAlbedo importance_sampled(double NoV, double alpha, const DfgMethod& method) {
@@ -36,7 +36,10 @@ DirectionalAlbedo importance_sampled(double NoV, double alpha, const DfgMethod& 
         const double NoL = 2 * VoH * wm.z - NoV;
         if (NoL <= 0 || VoH <= 0) continue;
         // D V NoL over the density G1 D / (4 NoV) of reflected directions: G2/G1.
-        const double weight = NoL * (NoV + root_v) / (NoL * root_v + NoV * smith_ggx_root(NoL, alpha));
+        const double root_l = smith_ggx_root(NoL, alpha);
+        const double weight = method.visibility == DfgVisibility::correlated
+                                  ? NoL * (NoV + root_v) / (NoL * root_v + NoV * root_l)
+                                  : 2 * NoL / (NoL + root_l);
         E += weight;
         Fc += weight * schlick_weight(VoH);
     }
@@ -55,7 +58,7 @@ DfgRule dfg_rule(double max_error) {
 void dfg_ggx_row(std::span<const double> NoV, double alpha, const DfgMethod& method, std::span<double> E,
                  std::span<double> Fc) {
     if (alpha > 0 && method.estimator == DfgEstimator::quadrature)
-        return dfg_quadrature_row(NoV, alpha, method.rule, E, Fc);
+        return dfg_quadrature_row(NoV, alpha, method, E, Fc);
     for (std::size_t i = 0; i < NoV.size(); ++i) {
         const DirectionalAlbedo albedo = alpha > 0 ? importance_sampled(NoV[i], alpha, method)
                                                    : DirectionalAlbedo{1, schlick_weight(NoV[i])};

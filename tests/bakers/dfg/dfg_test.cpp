@@ -22,6 +22,11 @@ DfgParams defaults() {
     params.terms = {Term::ggx};
     params.min_perceptual_roughness = 0.05;
     params.samples = 1024;
+    params.disney = Disney::renormalised;
+    params.cloth = Cloth::charlie;
+    params.axis = Axis::nov;
+    params.align = Align::center;
+    params.form = Form::scale_bias;
     return params;
 }
 
@@ -130,13 +135,13 @@ TEST(DfgBaker, LayoutFieldsMoveTexelsAsTheySay) {
     EXPECT_NEAR(texel(mix, 3, 5, 1), texel(plain, 3, 5, 0) + texel(plain, 3, 5, 1), 1e-7f);  // E
     params = defaults();
     params.align = Align::ends;
-    EXPECT_EQ(nov_of_column(params, 0), 0);
-    EXPECT_EQ(nov_of_column(params, 15), 1);
-    EXPECT_EQ(perceptual_roughness_of_row(params, 15), 1);
+    EXPECT_EQ(value_of_column(params, 0), 0);
+    EXPECT_EQ(value_of_column(params, 15), 1);
+    EXPECT_EQ(value_of_row(params, 15), 1);
     params.axis = Axis::sqrt_nov;
-    EXPECT_DOUBLE_EQ(nov_of_column(params, 5), 25.0 / 225);
+    EXPECT_DOUBLE_EQ(value_of_column(params, 5), 25.0 / 225);
     for (const double NoV : {0.0, 0.2, 1.0})
-        EXPECT_NEAR(nov_of_column(params, 0) + std::pow(column_of_nov(params, NoV) / 15, 2), NoV, 1e-12);
+        EXPECT_NEAR(value_of_column(params, 0) + std::pow(column_of_value(params, NoV) / 15, 2), NoV, 1e-12);
 }
 
 TEST(DfgBaker, ATermThatIsOffLeavesTheOtherColumnsAndCostsNothing) {

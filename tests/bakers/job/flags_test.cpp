@@ -36,10 +36,10 @@ std::vector<std::string> mistakes(const std::string& kind, const std::vector<Fla
 TEST(Flags, AreTheSchemasProperties) {
     std::vector<std::string> names;
     for (const Flag& flag : flags_of("dfg")) names.push_back(flag.name);
-    EXPECT_THAT(names,
-                ElementsAre("size", "terms", "disney", "axis", "roughness-axis", "align", "form", "flip-rows",
-                            "min-perceptual-roughness", "integrator", "samples", "seed", "format", "pixel",
-                            "certify", "accuracy", "working-space", "max-side", "max-decoded-bytes"));
+    EXPECT_THAT(names, ElementsAre("target", "size", "terms", "disney", "cloth", "axis", "roughness-axis",
+                                   "align", "form", "flip-rows", "min-perceptual-roughness", "integrator",
+                                   "samples", "seed", "format", "pixel", "certify", "accuracy",
+                                   "working-space", "max-side", "max-decoded-bytes"));
 }
 
 TEST(Flags, TellWhatTheyTake) {
@@ -50,7 +50,7 @@ TEST(Flags, TellWhatTheyTake) {
     }
     EXPECT_EQ(flags["size"].value, "N|N,N");
     EXPECT_THAT(flags["size"].help,
-                testing::EndsWith("[integer 1 to 4096, or an array of 2 of those; default: 128]"));
+                testing::EndsWith("[integer 0 to 4096, or an array of 2 of those; default: 0]"));
     EXPECT_TRUE(flags["flip-rows"].is_switch);
     EXPECT_EQ(flags["accuracy"].value, "draft|production|reference|X");
 }
@@ -85,9 +85,11 @@ TEST(Flags, GoDownTheWayOfAJob) {
 TEST(Flags, AreNamedInMistakes) {
     EXPECT_THAT(
         mistakes("dfg", {{"size", "big"}, {"terms", "ggx,gx"}, {"seed", "nan"}}),
-        ElementsAre("--size: found \"big\"; allowed: integer 1 to 4096, or an array of 2 of those",
-                    "--terms: found \"gx\"; allowed: \"ggx\", \"disney_diffuse\"; did you mean \"ggx\"?",
-                    "--seed: found \"nan\"; allowed: integer 0 to 2^53 - 1"));
+        ElementsAre(
+            "--size: found \"big\"; allowed: integer 0 to 4096, or an array of 2 of those",
+            "--terms: found \"gx\"; allowed: \"ggx\", \"disney_diffuse\", \"multiscatter\", "
+            "\"charlie\", \"clear_coat\", \"uncorrelated\", \"eon\", \"subsurface\"; did you mean \"ggx\"?",
+            "--seed: found \"nan\"; allowed: integer 0 to 2^53 - 1"));
     EXPECT_THAT(mistakes("dfg", {{"max-side", "0"}}),
                 ElementsAre("--max-side: found 0; allowed: integer 1 to 1048576"));
     EXPECT_THAT(mistakes("dfg", {{"accuracy", "-1"}}),

@@ -44,7 +44,7 @@ TEST(Job, FillsInDefaults) {
     const Bake& bake = job.bakes[0];
     EXPECT_EQ(bake.file, "lut.exr");
     EXPECT_EQ(bake.accuracy.name, "production");
-    EXPECT_EQ(bake.params["size"], 128);
+    EXPECT_EQ(bake.params["size"], 0);  // for the target, else the accuracy, else 128
     EXPECT_EQ(bake.params["accuracy"], "production");
     EXPECT_FALSE(bake.params.contains("name"));
     EXPECT_EQ(job.max_side, 65536);
@@ -70,6 +70,22 @@ TEST(Job, GivesItsAccuracyToBakesThatStateNone) {
     EXPECT_EQ(job.bakes[1].accuracy.name, "draft");
 }
 
+TEST(Job, ReadsWhereAStatedErrorHolds) {
+    const Job job = loaded(R"({"version": 1, "bakes": [
+        {"kind": "dfg", "name": "a", "accuracy": {"max_error": 0.001, "as": "sampled"}},
+        {"kind": "dfg", "name": "b", "accuracy": {"max_error": 0.001}}]})");
+    EXPECT_TRUE(job.bakes[0].accuracy.as_sampled);
+    EXPECT_FALSE(job.bakes[1].accuracy.as_sampled);
+}
+
+TEST(Job, RefusesTermsThatNoTableHolds) {
+    EXPECT_THAT(mistakes(R"({"version": 1, "bakes": [
+        {"kind": "dfg", "name": "a", "terms": ["ggx", "uncorrelated", "eon"]},
+        {"kind": "dfg", "name": "b", "terms": ["eon", "subsurface"]}]})"),
+                ElementsAre(StartsWith("/bakes/0/terms: found terms of 5 channels; a table has up to 4"),
+                            StartsWith("/bakes/1/terms: subsurface has axes of its own")));
+}
+
 TEST(Job, ReportsAllMistakesAtOnce) {
     EXPECT_THAT(
         mistakes(R"({"version": 1, "outptu": "x", "bakes": [
@@ -77,7 +93,7 @@ TEST(Job, ReportsAllMistakesAtOnce) {
         {"kind": "probe", "name": "b", "source": "b.hdr", "levels": 99},
         {"kind": "dfg", "name": "c", "accuracy": {"max_error": 0.1}, "certify": "none"},
         {"kind": "probe", "name": "c", "source": "../c.hdr"}]})"),
-        ElementsAre(R"(/bakes/0/size: found "big"; allowed: integer 1 to 4096, or an array of 2 of those)",
+        ElementsAre(R"(/bakes/0/size: found "big"; allowed: integer 0 to 4096, or an array of 2 of those)",
                     "/bakes/1/levels: found 99; allowed: integer 0 to 14",
                     AllOf(StartsWith("/outptu: unknown key"), HasSubstr("did you mean \"output\"?")),
                     StartsWith("/bakes/2/certify: found \"none\", but this bake states a max_error"),

@@ -1,8 +1,8 @@
 #pragma once
 // The DFG term of the split sum: directional albedo of the GGX lobe, and its Fresnel-weighted part.
 //
-//     E(NoV, alpha)  = integral of D V NoL over the hemisphere            (height-correlated Smith)
-//     Fc(NoV, alpha) = the same with the integrand times (1 - VoH)^5
+//     E(NoV, alpha)  = integral of D V NoL over the hemisphere       (Smith, correlated unless asked
+//     otherwise) Fc(NoV, alpha) = the same with the integrand times (1 - VoH)^5
 //
 // so that the lobe of a material with Schlick's Fresnel has the albedo f0 (E - Fc) + f90 Fc: scale E - Fc,
 // bias Fc (Karis 2013, "Real shading in Unreal Engine 4"; Lagarde & de Rousiers 2014, 4.9.2). 0 <= Fc <= E
@@ -39,20 +39,31 @@ enum class DfgEstimator {
     importance_sampling,  ///< Monte Carlo over visible normals, as other renderers have it
 };
 
+/// How masking and shadowing go together in Smith's visibility.
+enum class DfgVisibility {
+    correlated,    ///< V_smith_ggx_correlated, by height
+    uncorrelated,  ///< V_smith_ggx_uncorrelated, G1 G1: darker, at NoV = 0 too
+};
+
 /// How E and Fc are had.
 struct DfgMethod {
     DfgEstimator estimator = DfgEstimator::quadrature;
     DfgRule rule{};          ///< of quadrature
     int samples = 0;         ///< of importance sampling
     std::uint64_t seed = 0;  ///< of importance sampling; every (NoV, alpha) hashes it anew
+    DfgVisibility visibility = DfgVisibility::correlated;
 
     /// Quadrature by dfg_rule(max_error).
-    static DfgMethod quadrature(double max_error) {
-        return {DfgEstimator::quadrature, dfg_rule(max_error), 0, 0};
-    }
+    static DfgMethod quadrature(double max_error) { return {DfgEstimator::quadrature, dfg_rule(max_error)}; }
     /// Monte Carlo with `samples` >= 1 a table entry.
     static DfgMethod importance_sampling(int samples, std::uint64_t seed) {
         return {DfgEstimator::importance_sampling, {}, samples, seed};
+    }
+    /// The same with another visibility; the rules' errors hold for both.
+    DfgMethod with(DfgVisibility other) const {
+        DfgMethod method = *this;
+        method.visibility = other;
+        return method;
     }
     /// Evaluations of the integrand a table entry costs.
     int evaluations() const { return estimator == DfgEstimator::quadrature ? rule.evaluations() : samples; }

@@ -1,0 +1,72 @@
+#pragma once
+// What a table's channels can hold. A term is an entry of one list in terms.cpp; nothing else knows them.
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bakers/context.hpp"
+#include "bakers/dfg/params.hpp"
+#include "pbr/ibl/dfg.hpp"
+
+namespace pbrbake::dfg {
+
+/// Values along a row, a vector for each channel.
+using Columns = std::vector<std::vector<double>>;
+
+/// A row of a table that is being evaluated: many views at one roughness. What several terms need is had
+/// once, and counted where it is had.
+class Row {
+  public:
+    /// `params` are settled; `across` are values of NoV (NoL of a subsurface table), `down` is the row's
+    /// perceptual roughness (curvature). Evaluations are counted as `counter_prefix` + effect. What is passed
+    /// by reference outlives the row.
+    Row(const DfgParams& params, const pbr::DfgMethod& method, double down, std::span<const double> across,
+        Context& context, std::string_view counter_prefix = "");
+
+    /// All channels of all terms, in their order.
+    Columns evaluate();
+
+    struct Ggx {
+        std::vector<double> E, Fc;
+    };
+    /// E and Fc of height-correlated GGX along the row.
+    const Ggx& ggx();
+    /// The same of another visibility, counted as `effect`.
+    Ggx ggx_of(pbr::DfgVisibility visibility, std::string_view effect);
+
+    template <class Value>
+    std::vector<double> each(std::string_view effect, std::uint64_t evaluations_a_view, const Value& value) {
+        context_.check_cancelled();
+        std::vector<double> values;
+        for (const double x : across_) values.push_back(value(x));
+        count(effect, evaluations_a_view * across_.size());
+        return values;
+    }
+    void count(std::string_view effect, std::uint64_t evaluations);
+
+    const DfgParams& params() const { return params_; }
+    double down() const { return down_; }
+    double alpha() const;
+    std::size_t views() const { return across_.size(); }
+
+  private:
+    const DfgParams& params_;
+    const pbr::DfgMethod& method_;
+    double down_;
+    std::span<const double> across_;
+    Context& context_;
+    std::string_view counter_prefix_;
+    Ggx ggx_;  ///< empty until asked for
+};
+
+/// Names of all channels, in order.
+std::vector<std::string> channel_names(const DfgParams& params);
+
+/// Whether a term is had over (NoL, curvature) instead of (NoV, roughness).
+bool is_over_curvature(Term term);
+
+}  // namespace pbrbake::dfg
