@@ -51,6 +51,18 @@ TEST(DiskLight, FacingTheReceiverOnItsAxisIsSineSquared) {
     }
 }
 
+TEST(DiskLight, IsContinuousOnItsAxis) {
+    // Beside the axis the light is seen turned by as little: linear, whatever the offset's size.
+    const DiskLight<double> light{{0, 0, 1}, {0, 0, -1}, 0.5};
+    const Vec n = glm::normalize(Vec(.99, .1, .3));
+    const auto at = [&](double offset) { return projected_solid_angle(light, Vec(offset, 0, 0), n); };
+    const double slope = (at(1e-5) - at(-1e-5)) / 2e-5;
+    ASSERT_GT(std::abs(slope), .1);
+    for (double offset = 1e-17; offset < 1e-7; offset *= 1.7)
+        for (const double side : {-offset, offset})
+            EXPECT_NEAR(at(side), at(0) + slope * side, 1e-14 + offset * offset + 1e-9 * offset) << side;
+}
+
 TEST(DiskLight, SolidAngleOnAxisIsThatOfACone) {
     for (const double h : {1e-6, 0.3, 1.0, 4.9, 5.1, 1e3}) {
         const double rim = std::hypot(h, 0.5);  // 1 - h/rim without cancellation
@@ -179,6 +191,16 @@ TEST(DiskLight, MostRepresentativePointErrsAsStated) {
     EXPECT_NEAR(worst_error(1, mrp, kExact, kSolidAngle), 0.40, 5e-3);
     EXPECT_NEAR(worst_error(2, mrp, kExact, kSolidAngle), 0.23, 5e-3);
     EXPECT_NEAR(worst_error(4, mrp, kExact, kSolidAngle), 0.12, 5e-3);
+}
+
+TEST(DiskLight, StructuredSamplingErrsAsStated) {
+    const auto structured = [](const Vec& p, const Vec& n) {
+        return projected_solid_angle_structured(kDisk, p, n);
+    };
+    EXPECT_NEAR(worst_error(0.5, structured, kExact, kSolidAngle), 0.47, 5e-3);
+    EXPECT_NEAR(worst_error(1, structured, kExact, kSolidAngle), 0.076, 5e-4);
+    EXPECT_NEAR(worst_error(2, structured, kExact, kSolidAngle), 0.024, 5e-4);
+    EXPECT_NEAR(worst_error(4, structured, kExact, kSolidAngle), 0.0048, 5e-5);
 }
 
 RC_GTEST_PROP(DiskLight, AreaSampleAndInverseAreARoundTrip, ()) {

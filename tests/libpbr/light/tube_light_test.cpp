@@ -165,6 +165,13 @@ TEST(TubeLight, StructuredSamplingErrsAsStated) {
     EXPECT_GT(structured(Vec(0, 0, 0.1001), Vec(0, 0, -1)), 1.2 * pi);  // beyond what any light can give
 }
 
+TEST(TubeLight, MostRepresentativePointErrsAsStated) {
+    const auto mrp = [](const Vec& p, const Vec& n) { return projected_solid_angle_mrp(kTube, p, n); };
+    EXPECT_NEAR(worst_error(0.75, mrp, kExact, kFacing), 0.47, 5e-3);
+    EXPECT_NEAR(worst_error(4, mrp, kExact, kFacing), 0.14, 5e-3);
+    EXPECT_EQ(projected_solid_angle_mrp(kTube, Vec(0), Vec(0, 0, 1)), pi);
+}
+
 RC_GTEST_PROP(TubeLight, AreaSampleAndInverseAreARoundTrip, ()) {
     const TubeLight<double> light = random_tube();
     const double u1 = *uniform(0.001, 0.999), u2 = *uniform(0, 1);
