@@ -110,6 +110,8 @@ T one_minus_cos_half_angle(const SphereLight<T>& light, const Vec3<T>& p) {
 
 /// Solid angle, sr: 2 pi (1 - cos s); 2 pi on the surface, 4 pi inside. Relative error below 8 ulp where the
 /// sphere subtends less than 60 deg; growing like 1/cos s near its surface.
+/// That is of light.centre - p and light.radius as rounded: positions that share many digits lose them
+/// before.
 template <class T>
 T solid_angle(const SphereLight<T>& light, const Vec3<T>& p) {
     return T(2) * std::numbers::pi_v<T> * one_minus_cos_half_angle(light, p);
@@ -122,10 +124,10 @@ T rim_scale2(const SphereLight<T>& light, const Vec3<T>& p) {
     return T(1) - sin2_half_angle(light, p);
 }
 
-/// Solid angle times the mean clamped cosine of structured sampling, sr: the middle and four points of the rim,
-/// two of them highest and lowest over the receiver's horizon (the pattern of Lagarde & de Rousiers 2014,
-/// 4.7.2.5, who have it for rectangles alone; the closed form above is as cheap). Over all tilts the largest
-/// error is 0.175, 0.040, 0.013 and 0.0024 of the solid angle at 1.1, 2, 4 and 8 radii. pi inside.
+/// Solid angle times the mean clamped cosine of structured sampling, sr: the middle and four points of the
+/// rim, two of them highest and lowest over the receiver's horizon (the pattern of Lagarde & de Rousiers
+/// 2014, 4.7.2.5, who have it for rectangles alone; the closed form above is as cheap). Over all tilts the
+/// largest error is 0.175, 0.040, 0.013 and 0.0024 of the solid angle at 1.1, 2, 4 and 8 radii. pi inside.
 template <class T>
 T projected_solid_angle_structured(const SphereLight<T>& light, const Vec3<T>& p, const Vec3<T>& n) {
     if (is_inside(light, p)) return std::numbers::pi_v<T>;
