@@ -117,8 +117,8 @@ T solid_angle(const SphereLight<T>& light, const Vec3<T>& p) {
     return T(2) * std::numbers::pi_v<T> * one_minus_cos_half_angle(light, p);
 }
 
-/// The rim of the disk that p sees in the sphere's place: its middle is cos^2 s of the way to the centre, its
-/// radius r cos s. p outside the sphere.
+/// cos^2 s of the half-angle: the disk that p sees in the sphere's place has its middle at this share of the
+/// way to the centre, and its radius is r cos s. p outside the sphere.
 template <class T>
 T rim_scale2(const SphereLight<T>& light, const Vec3<T>& p) {
     return T(1) - sin2_half_angle(light, p);
