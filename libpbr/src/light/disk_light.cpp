@@ -60,17 +60,11 @@ struct SeenCircle {
         : centre(light.centre - p), radius(light.radius) {
         w = glm::dot(centre, light.normal) > 0 ? light.normal : -light.normal;
         cw = glm::dot(centre, w);
-        // On the axis the centre's part in the plane is rounding alone, which need not even lie in the plane.
-        constexpr double kOnAxis = 1e-10;
-        const Vec in_plane = centre - cw * w;
-        if (glm::length(in_plane) > kOnAxis * cw) {
-            const Vec nearly = glm::normalize(in_plane);
-            u = glm::normalize(nearly - glm::dot(nearly, w) * w);
-        } else {
-            u = frame_about(w).x;
-        }
+        // On the axis, within a few roundings, any u will do: so little of a turn changes the result by as little.
+        const AxisFrame<double> frame = frame_towards(w, glm::normalize(centre));
+        u = frame.x;
+        v = frame.y;
         cu = std::max(glm::dot(centre, u), 0.0);
-        v = glm::cross(w, u);
     }
 
     Vec at(double phi) const { return centre + radius * (std::cos(phi) * u + std::sin(phi) * v); }

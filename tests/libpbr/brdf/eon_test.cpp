@@ -62,13 +62,24 @@ TEST(EonDiffuse, WhiteSurfaceReturnsEverything) {
                 return f_eon(1.0, r, w.NoL, w.NoV, w.LoV);
             };
             EXPECT_NEAR(reflection_albedo(exact, NoV), 1, 1e-6) << r << ' ' << NoV;
+        }
+}
+
+TEST(EonDiffuse, FittedAlbedoIsAsFarFromOneAsStated) {
+    // Both extremes are the roughest's: at NoV .954 and .137.
+    double least = 2, most = 0;
+    for (const double r : {.3, 1.0})
+        for (const double NoV :
+             {0.0, .02, .05, .1, .13, .137, .14, .2, .3, .4, .5, .7, .9, .94, .95, .954, .96, .98, 1.0}) {
             const auto fitted = [&](const Reflection<double>& w) {
                 return f_eon_approximate(1.0, r, w.NoL, w.NoV, w.LoV);
             };
             const double albedo = reflection_albedo(fitted, NoV);
-            EXPECT_GT(albedo, 1 - 5.3e-4);
-            EXPECT_LT(albedo, 1 + 1.5e-4);
+            least = std::min(least, albedo);
+            most = std::max(most, albedo);
         }
+    EXPECT_NEAR(1 - least, 5.43e-4, 1e-6);
+    EXPECT_NEAR(most - 1, 1.5e-4, 5e-6);
 }
 
 TEST(EonDiffuse, ColouredSurfaceReturnsLess) {

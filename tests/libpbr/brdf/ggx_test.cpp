@@ -99,6 +99,23 @@ TEST(Ggx, SpecularTimesCosineIsFiniteWhereVisibilityIsNot) {
     }
 }
 
+TEST(Ggx, KeepsItsDigitsDownToTheAlphaStated) {
+    for (int exponent = 0; exponent <= 17; ++exponent)
+        for (int i = 0; i < 2000; ++i) {
+            const float alpha =
+                static_cast<float>(std::pow(10.0, -exponent) * (1 - .9 * random_unit(16, exponent, i)));
+            const double width = std::pow(10.0, 8 * random_unit(17, exponent, i) - 3) * alpha;
+            const float sin2 = i % 4 == 0 ? 0 : static_cast<float>(std::min(width * width, 1.0));
+            const float NoH = std::sqrt(1 - sin2);
+            const double truth = D_ggx<double>(NoH, sin2, alpha);
+            if (truth < std::numeric_limits<float>::min()) continue;
+            ASSERT_LT(ulp_error(D_ggx(NoH, sin2, alpha), truth), 8) << alpha << ' ' << sin2;
+        }
+    EXPECT_NEAR(D_ggx(1.0, 0.0, 1e-150) * std::numbers::pi * 1e-150 * 1e-150, 1, 1e-14);
+    EXPECT_TRUE(std::isinf(D_ggx(1.0f, 0.0f, 1e-20f)));
+    EXPECT_TRUE(std::isinf(D_ggx(1.0f, 0.0f, 1e-30f)));
+}
+
 TEST(Ggx, FloatIsWithinTheUlpStated) {
     for (int i = 0; i < 100'000; ++i) {
         const float NoL = static_cast<float>(random_unit(12, i)),

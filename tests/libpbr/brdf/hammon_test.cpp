@@ -24,10 +24,18 @@ TEST(HammonDiffuse, HasTheAlbedosStated) {
         for (const double NoV : {0.0, .05, .2, .5, 1.0}) most = std::max(most, albedo_hammon(1, NoV, alpha));
     EXPECT_LE(most, 1.1815);
     const QuadratureRule rule = gauss_legendre(6);
-    double mean = 0;
-    for (int i = 0; i < rule.size(); ++i)
-        mean += 2 * rule.weights[i] * rule.nodes[i] * albedo_hammon(1, rule.nodes[i], 1);
-    EXPECT_NEAR(mean, 1.073, 1e-3);
+    const auto mean = [&](double alpha) {
+        double sum = 0;
+        for (int i = 0; i < rule.size(); ++i)
+            sum += 2 * rule.weights[i] * rule.nodes[i] * albedo_hammon(1, rule.nodes[i], alpha);
+        return sum;
+    };
+    EXPECT_NEAR(mean(0), 20.0 / 21, 1e-5);
+    EXPECT_NEAR(mean(1), 1.073, 1e-3);
+    for (double before = 0, alpha = 0; alpha <= 1; alpha += .125) {  // the ends are the extremes
+        EXPECT_GT(mean(alpha), before);
+        before = mean(alpha);
+    }
 }
 
 TEST(HammonDiffuse, SmoothSurfaceIsShirleys) {

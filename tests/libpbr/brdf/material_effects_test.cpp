@@ -66,6 +66,20 @@ TEST(MaterialEffects, LayersOverWhiteStayWithinOne) {
     }
 }
 
+TEST(MaterialEffects, FibresReturnMoreThanArrivedOnlyBelowTheAlphaStated) {
+    // Over black the albedo is the lobe's own; over white it is 1 as long as the lobe's isn't more.
+    const auto most = [](double alpha) {
+        double result = 0;
+        for (double NoV = 1e-3; NoV <= 1; NoV *= 1.08)
+            result = std::max(result, albedo_charlie(NoV, alpha, CharlieVisibility::charlie));
+        return result;
+    };
+    for (const double alpha : {.07, .08, .1, .2, .5, 1.0}) EXPECT_LT(most(alpha), 1) << alpha;
+    EXPECT_NEAR(most(.05), 1.103, 1e-3);
+    EXPECT_NEAR(most(.03), 1.335, 1e-3);
+    EXPECT_NEAR(most(.01), 2.129, 1e-3);
+}
+
 TEST(MaterialEffects, CoatOverADielectricOfItsOwnIndexLeavesNoBoundary) {
     const Material coated(kWhitePaint, ClearCoat<double>{1, .05});
     EXPECT_NEAR(coated.surface().f0.x, 0, 1e-15);

@@ -119,5 +119,18 @@ TEST(Material, NothingReturnsFromBelow) {
     EXPECT_EQ(material.f({.6f, 0, -.8f}, {0, 0, 1}), Vec3<float>(0));
 }
 
+TEST(Material, IsFiniteForTheSmoothestThatFloatKnows) {
+    for (const float smoothness : {.999f, .999999f, 1 - 0x1p-24f}) {
+        const Material<float> material({Vec3<float>(1), smoothness, 1, .5f});
+        EXPECT_GT(material.surface().alpha, 3e-15f);
+        for (const float cosine : {1.0f, .3f, 1e-2f, 1e-4f}) {
+            const float sine = std::sqrt((1 - cosine) * (1 + cosine));
+            const float f = material.f({sine, 0, cosine}, {-sine, 0, cosine}).x;
+            EXPECT_TRUE(std::isfinite(f)) << smoothness << ' ' << cosine;
+            EXPECT_GT(f, 0);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace pbr

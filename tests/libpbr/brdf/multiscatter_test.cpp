@@ -117,5 +117,26 @@ RC_GTEST_PROP(Multiscatter, StaysWithinEnergy, ()) {
     RC_ASSERT(E * multiscatter_factor_turquin(f0, E) <= 1 + 1e-14);
 }
 
+TEST(Multiscatter, CheaperWaysDifferFromKullaContyOnColouredMetalsAsStated) {
+    const double rows[][3] = {{.5, .0183, .0152}, {1.0, .2278, .0948}};
+    for (const auto& [alpha, turquin_stated, fdez_aguera_stated] : rows) {
+        const double E_avg = average_albedo_ggx(alpha);
+        double turquin = 0, fdez_aguera = 0;
+        for (const double f0 : {.2, .5, .8, .9})
+            for (const double NoV : {.1, .5, 1.0}) {
+                const DirectionalAlbedo d = dfg_ggx(NoV, alpha, DfgMethod::quadrature(1e-6));
+                const double single = f0 * (d.E - d.Fc) + d.Fc;
+                const double exact =
+                    single + multiscatter_colour(average_schlick(f0, 1.0), E_avg) * (1 - d.E);
+                const auto both = multiscatter_albedo_fdez_aguera(f0, 1.0, d.E, d.Fc);
+                turquin =
+                    std::max(turquin, std::abs(single * multiscatter_factor_turquin(f0, d.E) / exact - 1));
+                fdez_aguera = std::max(fdez_aguera, std::abs((both.single + both.multiple) / exact - 1));
+            }
+        EXPECT_NEAR(turquin, turquin_stated, 2e-3 * turquin_stated + 1e-4) << alpha;
+        EXPECT_NEAR(fdez_aguera, fdez_aguera_stated, 2e-3 * fdez_aguera_stated + 1e-4) << alpha;
+    }
+}
+
 }  // namespace
 }  // namespace pbr

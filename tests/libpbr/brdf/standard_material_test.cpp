@@ -57,18 +57,24 @@ TEST(StandardMaterial, LobesHaveTheAlbedosOfTheTables) {
 
 TEST(StandardMaterial, WhiteExceedsOneAtGrazingAndFullRoughness) {
     // Frostbite's correction was made for the sum of both lobes; at the roughest it falls short.
-    double most = 0;
-    for (const double smoothness : {0.0, .1, .3, .5, .7})
-        for (const double NoV : {.01, .1, .5, 1.0}) {
-            const Surface<double> s = surface_from_material<double>({Vec3<double>(1), smoothness, 0, .5});
-            most = std::max(most, reflection_albedo_fixed(
-                                      [&](const Reflection<double>& r) {
-                                          return f_standard_diffuse(s, r).x +
-                                                 F_schlick(s.f0.x, s.f90, r.LoH) * DV_standard_specular(s, r);
-                                      },
-                                      NoV));
-        }
-    EXPECT_NEAR(most, 1.098, 1e-3);
+    const auto albedo = [](double smoothness, double reflectance, double NoV) {
+        const Surface<double> s =
+            surface_from_material<double>({Vec3<double>(1), smoothness, 0, reflectance});
+        return reflection_albedo_fixed(
+            [&](const Reflection<double>& r) {
+                return f_standard_diffuse(s, r).x +
+                       F_schlick(s.f0.x, s.f90, r.LoH) * DV_standard_specular(s, r);
+            },
+            NoV);
+    };
+    for (const auto& [reflectance, stated] : {std::pair(.5, 1.117), std::pair(1.0, 1.231)}) {
+        double most = 0;
+        for (const double smoothness : {0.0, .1, .3, .5, .7})
+            for (const double NoV : {0.0, 1e-3, .01, .1, .5, 1.0})
+                most = std::max(most, albedo(smoothness, reflectance, NoV));
+        EXPECT_NEAR(most, stated, 1e-3);
+        EXPECT_EQ(most, albedo(0, reflectance, 0));  // where the header says
+    }
 }
 
 TEST(StandardMaterial, FloatIsWithinTheUlpStated) {

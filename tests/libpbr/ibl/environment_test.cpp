@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -195,6 +197,20 @@ TEST(Patches, WeightsSumToTheSphere) {
                 }
             }
             EXPECT_NEAR(total.value(), 4 * std::numbers::pi, 2e-6);
+        }
+}
+
+TEST(EquirectTexel, SolidAngleIsTheDifferenceOfCosines) {
+    // In long double, whose 11 more bits leave the plain difference enough digits away from the poles' first
+    // rows.
+    const long double pi = std::numbers::pi_v<long double>;
+    for (const auto& [width, height] :
+         {std::pair(8, 4), std::pair(64, 32), std::pair(4, 1), std::pair(256, 128)})
+        for (int y = 0; y < height; ++y) {
+            const long double difference = std::cos(pi * y / height) - std::cos(pi * (y + 1) / height);
+            const double ratio = static_cast<double>(equirect_texel_solid_angle(width, height, y) /
+                                                     (2 * pi / width * difference));
+            EXPECT_NEAR(ratio, 1, 1e-14) << height << ' ' << y;
         }
 }
 

@@ -65,5 +65,31 @@ TEST(SplitSum, TakesColours) {
     EXPECT_FLOAT_EQ(split_sum_diffuse(LD, f0, 0.5f).z, 3 * 0.3f * 0.5f);
 }
 
+TEST(SplitSum, DiffuseErrsAsStatedUnderASkyWithASlope) {
+    // Radiance 1 + w.e: exactly the lobe's albedo and its first moment along e; irradiance / pi is 1 + 2/3
+    // n.e. The worst e is along the difference.
+    const double rows[][3] = {{0, .1, .021}, {0, .9, .021}, {.5, .1, .094}, {1, .1, .132}, {1, .5, .027}};
+    for (const auto& [roughness, NoV, stated] : rows) {
+        const Vec3<double> wo(std::sqrt(1 - NoV * NoV), 0, NoV);
+        const double p = roughness;
+        const auto moment = [&](int axis) {
+            return integrate_hemisphere(
+                [&](const Vec3<double>& wi) {
+                    const double LoH = glm::dot(wi, glm::normalize(wo + wi));
+                    return f_disney_diffuse(wi.z, wo.z, LoH, p) * wi.z * wi[axis];
+                },
+                1e-6);
+        };
+        const double albedo = albedo_disney_diffuse(NoV, p);
+        const Vec3<double> exact(moment(0), 0, moment(2));
+        // Of e along each axis, less the constant part, which both have.
+        const auto split = [&](double n_dot_e) {
+            return split_sum_diffuse(1 + 2.0 / 3 * n_dot_e, 1.0, albedo) - albedo;
+        };
+        EXPECT_NEAR(glm::length(exact - Vec3<double>(0, 0, split(1))) / albedo, stated, 6e-4)
+            << roughness << ' ' << NoV;
+    }
+}
+
 }  // namespace
 }  // namespace pbr

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include "pbr/numerics/sequence.hpp"
+#include "tests/libpbr/support/chi_square.hpp"
+
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
@@ -87,6 +91,28 @@ TEST(GgxZonalKernel, SampleInvertsTheCdf) {
             EXPECT_LE(x, 1);
             previous = x;
         }
+    }
+}
+
+TEST(GgxZonalKernel, SamplesFollowTheKernel) {
+    // Cells that double in 1 - mu from a hundredth of the peak's width on.
+    for (const double alpha : {1e-2, 0.1, 0.5, 1.0}) {
+        const GgxZonalKernel kernel(alpha);
+        constexpr int kCount = 100'000;
+        std::vector<double> edges = {0};
+        for (double edge = 1e-2 * alpha * alpha; edge < 1; edge *= 2) edges.push_back(edge);
+        edges.push_back(1);
+        std::vector<double> observed(edges.size() - 1), expected(edges.size() - 1);
+        for (int i = 0; i < kCount; ++i) {
+            const double x = kernel.sample(random_unit(8, i));
+            const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, x);
+            observed[static_cast<std::size_t>(above - edges.begin() - 1)] += 1;
+        }
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            expected[i] = kCount * 2 * std::numbers::pi *
+                          gauss_kronrod<double, 31>::integrate([&](double t) { return kernel.value(t); },
+                                                               edges[i], edges[i + 1], 8, 1e-10);
+        EXPECT_GT(pearson_p_value(observed, expected), kSignificance) << alpha;
     }
 }
 

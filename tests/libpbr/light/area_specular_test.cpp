@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pbr/reference/reflected_radiance.hpp"
 #include "tests/libpbr/light/area_reference.hpp"
 #include "tests/libpbr/support/property.hpp"
 
@@ -192,8 +193,34 @@ TEST(AreaSpecular, DominantDirectionGoesFromMirrorToNormal) {
     const Vec n(0, 0, 1), wo(0.6, 0, 0.8);
     EXPECT_LT(glm::length(dominant_direction_area(n, wo, 0.0) - Vec(-0.6, 0, 0.8)), 1e-15);
     EXPECT_LT(glm::length(dominant_direction_area(n, wo, 1.0) - n), 1e-15);
-    const Vec half = dominant_direction_area(n, wo, 0.5);
-    EXPECT_NEAR(half.x / half.z, -0.3 / 0.9, 1e-15);
+    const Vec quarter = dominant_direction_area(n, wo, 0.25);
+    EXPECT_NEAR(quarter.x / quarter.z, -0.45 / 0.85, 1e-15);
+}
+
+TEST(AreaSpecular, DominantDirectionTakesAlphaAsItIsNearerToTheLobesMean) {
+    const Vec n(0, 0, 1);
+    double by_alpha = 0, by_perceptual = 0;
+    int count = 0;
+    for (const double alpha : {.1, .25, .5, .75, 1.0})
+        for (const double NoV : {.1, .3, .5, .7, .9}) {
+            const Vec wo(std::sqrt(1 - NoV * NoV), 0, NoV);
+            const SpecularSurface<double> surface{Vec(0), n, wo, alpha, 1.0};
+            const auto component = [&](int axis) {
+                return reflected_radiance_half_vector(
+                           [&](const Vec&, const Vec& wi) { return f_specular(surface, wi); }, wo,
+                           [&](const Vec& wi) { return wi[axis]; }, alpha, {1e-5, 1e-6})
+                    .value;
+            };
+            const Vec mean = glm::normalize(Vec(component(0), 0, component(2)));
+            const auto off = [&](const Vec& d) {
+                return std::acos(std::min(glm::dot(d, mean), 1.0)) * 180 / pi;
+            };
+            by_alpha += off(dominant_direction_area(n, wo, alpha));
+            by_perceptual += off(dominant_direction_area(n, wo, std::sqrt(alpha)));
+            ++count;
+        }
+    EXPECT_NEAR(by_alpha / count, 3.61, .01);
+    EXPECT_NEAR(by_perceptual / count, 7.16, .01);
 }
 
 RC_GTEST_PROP(AreaSpecular, IsFiniteEverywhere, ()) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "pbr/light/sun.hpp"
 #include "pbr/light/tube_light.hpp"
 #include "pbr/light/unit_conversions.hpp"
+#include "pbr/reference/reflected_texels.hpp"
 #include "tests/libpbr/support/integrate.hpp"
 
 namespace pbr {
@@ -145,6 +147,23 @@ double environment_lux(int size, const CubeTexel& texel) {
     return L.value() * sum * 4 / (double(size) * size * kSub * kSub);
 }
 
+/// The same by the reference for pictures: irradiance is pi times what white Lambert reflects, whose BRDF is
+/// 1/pi.
+double environment_lux_by_reference(const CubeTexel& texel) {
+    constexpr int kSize = 512;
+    std::vector<float> rgb(6 * kSize * kSize * 3);
+    const double L = kFacingLux.value() / cubemap_texel_solid_angle(kSize, texel.x, texel.y);
+    rgb[((texel.face * kSize + texel.y) * kSize + texel.x) * 3 + 1] = static_cast<float>(L);
+    const PatchBlocks source(CubeView{rgb.data(), kSize}, std::span(&texel, 1));
+    const Vec middle = cubemap_texel_direction(texel, kSize);
+    const Vec side = glm::normalize(glm::cross(middle, Vec(.3, -.2, .9)));
+    const AxisFrame<double> frame = frame_about(kNoL * middle + std::sin(40 * kPi / 180) * side);
+    const auto one = [](const Vec&, const Vec&) { return 1.0; };
+    return reflected_radiance_from_texels(one, Vec(0, 0, 1), source,
+                                          glm::transpose(glm::dmat3(frame.x, frame.y, frame.z)))
+        .value.y;
+}
+
 /// A way to state the light, and the lux that the plane then gets.
 struct Statement {
     std::string what;
@@ -160,9 +179,17 @@ std::vector<Statement> statements() {
     const SpotCone<double> cone = spot_cone(.3, .5);
     const Emitter<double> sphere = emitter_sphere(kSize_m), disk = emitter_disk(kSize_m),
                           rectangle = emitter_rectangle(.2, .1), tube = emitter_tube(.02, .2);
-    const auto from_lumens = [&](const Emitter<double>& shape) {
-        return luminance_from_power(power_from_intensity(I, shape), shape);
+    // Lumens and watts that the intensity stands for, worked out by hand from each shape's area: pi L A with
+    // L = I / facing area, so 4 pi I of a sphere, pi I of what is flat, and so on.
+    const auto from_lumens = [&](double power_lm, const Emitter<double>& shape) {
+        return luminance_from_power(Lumens<double>(power_lm), shape);
     };
+    const double sphere_lm = 250 * 4 * kPi, flat_lm = 250 * kPi;
+    const double tube_lm =
+        250 * kPi * (2 * kPi * .02 * (.2 + .04)) / (.2 * .04 + kPi * .0004);  // surface / largest shadow
+    const double cone_lm = 250 * 2 * kPi * (1 - std::cos(.5));
+    // Of the penumbra, a square of the cosine's share, a third is left.
+    const double spot_lm = 250 * 2 * kPi * ((std::cos(.3) - std::cos(.5)) / 3 + 1 - std::cos(.3));
     const auto on_sphere = sphere_surface(kFrame, kSize_m);
     const auto on_disk = disk_surface(kFrame, kSize_m);
     const auto on_rectangle = rectangle_surface(kFrame, .2, .1);
@@ -170,36 +197,37 @@ std::vector<Statement> statements() {
 
     const RectangleLight<double> rectangle_light{kPlace, .1 * kFrame.along, .05 * kFrame.across()};
 
+    const DiskLight<double> two_sided_disk{kPlace, kToLight, kSize_m, Emission::two_sided};
+    RectangleLight<double> two_sided_rectangle = rectangle_light;
+    two_sided_rectangle.emission = Emission::two_sided;
+
     // The rectangle again, as the two triangles of an emissive mesh.
     const Vec a(0, 0, 0), b(.2, 0, 0), c(.2, .1, 0), d(0, .1, 0);
     const double mesh_area = triangle_area(a, b, c) + triangle_area(a, c, d);
     const Emitter<double> mesh{mesh_area, mesh_area};
     const Ev100<double> screen = ev100_from_luminance(luminance_from_intensity(I, rectangle));
     const LumensPerWatt<double> bulb(15);
-    const Watts<double> plug = watts_from_power(power_from_intensity(I, all), bulb);
+    const Watts<double> plug(250 * 4 * kPi / 15);
     const double sun = kSunHalfAngle_rad;
 
     return {
         {"point, cd", point_lux(I)},
-        {"point, lm", point_lux(intensity_from_power(power_from_intensity(I, all), all))},
+        {"point, lm", point_lux(intensity_from_power(Lumens<double>(sphere_lm), all))},
         {"point, W", point_lux(intensity_from_power(power_from_watts(plug, bulb), all))},
         {"spot, cd", spot_lux(I, cone)},
         {"spot, lm of its penumbra",
-         spot_lux(intensity_from_power(Lumens<double>(I.value() * solid_angle_of_spot(cone).value()),
-                                       solid_angle_of_spot(cone)),
-                  cone)},
+         spot_lux(intensity_from_power(Lumens<double>(spot_lm), solid_angle_of_spot(cone)), cone)},
         {"spot, lm of its cone",
-         spot_lux(intensity_from_power(power_from_intensity(I, solid_angle_cone(.5)), solid_angle_cone(.5)),
-                  cone)},
-        {"spot, Frostbite's lm", spot_lux(intensity_of_frostbite_spot(power_of_frostbite_spot(I)), cone)},
-        {"sphere, lm", surface_lux(from_lumens(sphere), on_sphere)},
+         spot_lux(intensity_from_power(Lumens<double>(cone_lm), solid_angle_cone(.5)), cone)},
+        {"spot, Frostbite's lm", spot_lux(intensity_of_frostbite_spot(Lumens<double>(flat_lm)), cone)},
+        {"sphere, lm", surface_lux(from_lumens(sphere_lm, sphere), on_sphere)},
         {"sphere, nit", surface_lux(luminance_from_intensity(I, sphere), on_sphere)},
-        {"disk, lm", surface_lux(from_lumens(disk), on_disk)},
+        {"disk, lm", surface_lux(from_lumens(flat_lm, disk), on_disk)},
         {"disk, nit", surface_lux(luminance_from_intensity(I, disk), on_disk)},
-        {"rectangle, lm", surface_lux(from_lumens(rectangle), on_rectangle)},
+        {"rectangle, lm", surface_lux(from_lumens(flat_lm, rectangle), on_rectangle)},
         {"rectangle, EV", surface_lux(luminance_from_ev100(screen), on_rectangle)},
-        {"tube, lm", surface_lux(from_lumens(tube), on_tube)},
-        {"emissive mesh, lm", surface_lux(from_lumens(mesh), on_rectangle)},
+        {"tube, lm", surface_lux(from_lumens(tube_lm, tube), on_tube)},
+        {"emissive mesh, lm", surface_lux(from_lumens(flat_lm, mesh), on_rectangle)},
         {"emissive, stops above the camera",
          surface_lux(emissive_luminance(Ev100<double>(9), screen - Ev100<double>(9)), on_rectangle)},
         {"emissive, exitance",
@@ -211,10 +239,16 @@ std::vector<Statement> statements() {
         {"tube light",
          area_light_lux(I, tube,
                         TubeLight<double>{kPlace - .1 * kFrame.along, kPlace + .1 * kFrame.along, .02})},
+        // Both faces shine: twice the lumens for the same intensity.
+        {"two-sided disk light, lm", from_lumens(2 * flat_lm, emitter_of(two_sided_disk)).value() *
+                                         projected_solid_angle(two_sided_disk, Vec(0), kUp)},
+        {"two-sided rectangle light, lm", from_lumens(2 * flat_lm, emitter_of(two_sided_rectangle)).value() *
+                                              projected_solid_angle(two_sided_rectangle, Vec(0), kUp)},
         {"sun, lx", kFacingLux.value() * glm::dot(kToLight, kUp)},
         {"sun, nit", sky_disk_lux(disk_luminance_from_illuminance(kFacingLux, sun), sun)},
         {"environment, texel at a face's middle", environment_lux(1024, {2, 511, 512})},
         {"environment, texel at a corner", environment_lux(1024, {5, 0, 1023})},
+        {"environment, by the reference", environment_lux_by_reference({1, 300, 20})},
     };
 }
 
@@ -239,6 +273,22 @@ TEST(Coherence, AWhiteSkyOfTexelsGivesWhatAnEmissiveCeilingDoes) {
                        std::max(glm::dot(normal, cubemap_texel_direction({face, x, y}, kSize)), 0.0);
     EXPECT_NEAR(lux / exitance_from_luminance(Nits<double>(7)).value(), 1, 1e-4);
     EXPECT_NEAR(lux / illuminance_from_disk_luminance(Nits<double>(7), kPi / 2).value(), 1, 1e-4);
+}
+
+TEST(Coherence, AnEmitterIsWhatItsLightIs) {
+    const auto same = [](const Emitter<double>& a, const Emitter<double>& b) {
+        EXPECT_NEAR(a.area_m2 / b.area_m2, 1, 1e-15);
+        EXPECT_NEAR(a.facing_area_m2 / b.facing_area_m2, 1, 1e-15);
+    };
+    same(emitter_of(SphereLight<double>{Vec(1), .3}), emitter_sphere(.3));
+    same(emitter_of(TubeLight<double>{Vec(0, 0, 1), Vec(0, 0, 3), .3}), emitter_tube(.3, 2.0));
+    DiskLight<double> disk{Vec(0), kUp, .3};
+    RectangleLight<double> rectangle{Vec(0), Vec(.2, 0, 0), Vec(0, .5, 0)};
+    same(emitter_of(disk), emitter_disk(.3));
+    same(emitter_of(rectangle), emitter_rectangle(.4, 1.0));
+    disk.emission = rectangle.emission = Emission::two_sided;
+    same(emitter_of(disk), {2 * emitter_disk(.3).area_m2, emitter_disk(.3).facing_area_m2});
+    same(emitter_of(rectangle), {.8, .4});
 }
 
 /// Flux through a sphere of radius R about the shape, as lux on its inside; the shape's luminance is 1. z in

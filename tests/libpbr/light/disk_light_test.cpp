@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "pbr/light/polygon.hpp"
+#include "pbr/reference/flat_light.hpp"
 #include "tests/libpbr/light/area_reference.hpp"
+#include "tests/libpbr/support/chi_square.hpp"
 #include "tests/libpbr/support/property.hpp"
 
 namespace pbr {
@@ -49,6 +51,18 @@ TEST(DiskLight, FacingTheReceiverOnItsAxisIsSineSquared) {
         const double expected = pi * 0.25 / (0.25 + h * h);
         EXPECT_NEAR(projected_solid_angle(kDisk, Vec(0, 0, h), Vec(0, 0, -1)) / expected, 1, 1e-14);
     }
+}
+
+TEST(DiskLight, IsContinuousOnItsAxis) {
+    // Beside the axis the light is seen turned by as little: linear, whatever the offset's size.
+    const DiskLight<double> light{{0, 0, 1}, {0, 0, -1}, 0.5};
+    const Vec n = glm::normalize(Vec(.99, .1, .3));
+    const auto at = [&](double offset) { return projected_solid_angle(light, Vec(offset, 0, 0), n); };
+    const double slope = (at(1e-5) - at(-1e-5)) / 2e-5;
+    ASSERT_GT(std::abs(slope), .1);
+    for (double offset = 1e-17; offset < 1e-7; offset *= 1.7)
+        for (const double side : {-offset, offset})
+            EXPECT_NEAR(at(side), at(0) + slope * side, 1e-14 + offset * offset + 1e-9 * offset) << side;
 }
 
 TEST(DiskLight, SolidAngleOnAxisIsThatOfACone) {
@@ -181,6 +195,16 @@ TEST(DiskLight, MostRepresentativePointErrsAsStated) {
     EXPECT_NEAR(worst_error(4, mrp, kExact, kSolidAngle), 0.12, 5e-3);
 }
 
+TEST(DiskLight, StructuredSamplingErrsAsStated) {
+    const auto structured = [](const Vec& p, const Vec& n) {
+        return projected_solid_angle_structured(kDisk, p, n);
+    };
+    EXPECT_NEAR(worst_error(0.5, structured, kExact, kSolidAngle), 0.47, 5e-3);
+    EXPECT_NEAR(worst_error(1, structured, kExact, kSolidAngle), 0.076, 5e-4);
+    EXPECT_NEAR(worst_error(2, structured, kExact, kSolidAngle), 0.024, 5e-4);
+    EXPECT_NEAR(worst_error(4, structured, kExact, kSolidAngle), 0.0048, 5e-5);
+}
+
 RC_GTEST_PROP(DiskLight, AreaSampleAndInverseAreARoundTrip, ()) {
     const DiskLight<double> light = random_disk();
     const double u1 = *uniform(0.001, 1), u2 = *uniform(0, 1);
@@ -210,6 +234,40 @@ TEST(DiskLight, AreaSamplesHaveTheDisksMoments) {
     EXPECT_NEAR(square, 1 / 3.0, 4e-3);
     EXPECT_LT(glm::length(sum), 4e-3);
     EXPECT_NEAR(pdf_area(kDisk) * pi * 0.25, 1, 1e-15);
+}
+
+TEST(DiskLight, AreaSamplesAreUniform) {
+    // Cells of equal area, on axes other than the sampler's: eight rings of equal area by sixteen sectors.
+    const DiskLight<double> light{{1, -2, 3}, glm::normalize(Vec(.3, -.8, .4)), 0.7};
+    const auto [x, y] = plane_of(light.normal);
+    constexpr int kCount = 100'000;
+    std::vector<double> observed(8 * 16), expected(8 * 16, kCount / 128.0);
+    for (int i = 0; i < kCount; ++i) {
+        const Vec at = sample_disk_area(light, random_unit(6, i, 0), random_unit(6, i, 1)) - light.centre;
+        const double share = glm::dot(at, at) / (light.radius * light.radius);
+        const double turns = std::atan2(glm::dot(at, y), glm::dot(at, x)) / (2 * pi) + .5;
+        observed[std::min(7, int(8 * share)) * 16 + std::min(15, int(16 * turns))] += 1;
+    }
+    EXPECT_GT(pearson_p_value(observed, expected), kSignificance);
+}
+
+TEST(DiskLight, IsWithinTheErrorStatedOffItsAxis) {
+    // Against the reference's integral over the disk's own area, which is smooth clear of the horizon.
+    const DiskLight<double> lights[] = {{{0.5, 0.2, 1}, glm::normalize(Vec(-0.3, 0.1, -1)), 0.6},
+                                        {{1, 2, 1.5}, glm::normalize(Vec(-0.7, -0.9, -0.3)), 0.8}};
+    for (const DiskLight<double>& light : lights) {
+        const AxisFrame<double> frame = frame_about(light.normal);
+        const FlatLight flat{light.centre, light.radius * frame.x, light.radius * frame.y};
+        const auto integral = [&](const auto& brdf) {
+            return reflected_radiance_from_disk(brdf, Vec(0, 0, 1), flat, [](const Vec&) { return 1.0; },
+                                                {1e-14})
+                .value;
+        };
+        const double E = integral([](const Vec&, const Vec&) { return 1.0; });
+        EXPECT_NEAR(projected_solid_angle(light, Vec(0), Vec(0, 0, 1)) / E, 1, 1e-13);
+        const double omega = integral([](const Vec&, const Vec& wi) { return 1 / wi.z; });
+        EXPECT_NEAR(solid_angle(light, Vec(0)) / omega, 1, 1e-12);
+    }
 }
 
 }  // namespace

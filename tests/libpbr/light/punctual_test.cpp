@@ -81,6 +81,7 @@ TEST(PunctualSpot, SolidAngleIsTheIntegralOfItsAttenuation) {
             2 * kPi *
             (boost::math::quadrature::gauss_kronrod<double, 15>::integrate(at, first, full) + (1 - full));
         EXPECT_NEAR(solid_angle_of_spot(cone).value(), sum, 1e-13) << inner << " " << outer;
+        EXPECT_NEAR(cone.on_axis, cone.scale + cone.offset, 1e-12) << inner << " " << outer;
     }
     EXPECT_EQ(solid_angle_of_spot(spot_cone(0.0, 0.0)).value(), 0);
     // Without a penumbra it is the cone, but for the step.
@@ -136,10 +137,20 @@ RC_GTEST_PROP(Punctual, InFloatIsCloseToDouble, ()) {
                 R = static_cast<float>(*log_uniform(1e-2, 20));
     const float eps = std::numeric_limits<float>::epsilon();
     RC_ASSERT(std::abs(distance_window(d, R) - distance_window(double(d), double(R))) <= 2 * eps);
-    const float inner = static_cast<float>(*uniform(0, 1)),
-                outer = inner + static_cast<float>(*uniform(0, 1));
+    const float inner = static_cast<float>(*rc::gen::oneOf(uniform(0, 1), log_uniform(1e-7, 1)));
+    const float outer = inner * static_cast<float>(*uniform(1.01, 2)) + 1e-9f;
     const double exact = solid_angle_of_spot(spot_cone(double(inner), double(outer))).value();
-    RC_ASSERT(std::abs(solid_angle_of_spot(spot_cone(inner, outer)).value() - exact) <= 16 * eps);
+    RC_ASSERT(std::abs(solid_angle_of_spot(spot_cone(inner, outer)).value() / exact - 1) <= 16 * eps);
+}
+
+TEST(PunctualSpot, StatesTheIntensityOfNarrowConesInFloat) {
+    for (const double degrees : {30.0, 1.0, .1, .01}) {
+        const Steradians<float> angle = solid_angle_of_spot(spot_cone(0.f, static_cast<float>(degrees * kDeg)));
+        // The ramp rises over 1 - cos outer, to 1 or, below 2.56 degrees, to 1000 times that.
+        const double edge = 2 * std::pow(std::sin(degrees * kDeg / 2), 2), top = std::min(1000 * edge, 1.0);
+        const double exact = 2 * kPi * top * top * edge / 3;
+        EXPECT_NEAR(angle.value() / exact, 1, 2e-6) << degrees;
+    }
 }
 
 }  // namespace

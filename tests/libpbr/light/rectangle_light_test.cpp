@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pbr/light/solid_angle.hpp"
 #include "tests/libpbr/light/area_reference.hpp"
 #include "tests/libpbr/support/property.hpp"
 
@@ -32,10 +33,10 @@ TEST(RectangleLight, AgreesWithTheIntegralOverItsSurface) {
 TEST(RectangleLight, SolidAngleMatchesThePyramidOnItsAxis) {
     for (const double h : {1e-3, 0.1, 1.0, 30.0}) {
         const RectangleLight<double> light{{0, 0, h}, {0.7, 0, 0}, {0, -0.3, 0}, Emission::one_sided};
-        EXPECT_NEAR(solid_angle(light, Vec(0)) / solid_angle_right_pyramid(h, 0.7, 0.3), 1, 1e-12) << h;
+        EXPECT_NEAR(solid_angle(light, Vec(0)) / solid_angle_of_rectangle(1.4, 0.6, h).value(), 1, 1e-12) << h;
     }
-    EXPECT_EQ(solid_angle_right_pyramid(0.0, 1.0, 1.0), 2 * pi);
-    EXPECT_NEAR(solid_angle_right_pyramid(1.0, 1.0, 1.0), 4 * pi / 6, 1e-15);  // a face of the cube
+    EXPECT_EQ(solid_angle_of_rectangle(2.0, 2.0, 0.0).value(), 2 * pi);
+    EXPECT_NEAR(solid_angle_of_rectangle(2.0, 2.0, 1.0).value(), 4 * pi / 6, 1e-15);  // a face of the cube
 }
 
 RC_GTEST_PROP(RectangleLight, IsBetweenItsBounds, ()) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "pbr/light/disk_light.hpp"
+
 #include "tests/libpbr/light/area_reference.hpp"
 #include "tests/libpbr/support/chi_square.hpp"
 #include "tests/libpbr/support/property.hpp"
@@ -182,6 +184,26 @@ TEST(SphereLight, DensityIsZeroBesideIt) {
     const SphereLight<double> light{{0, 0, 2}, 1};
     EXPECT_EQ(pdf_solid_angle(light, Vec(0), Vec(0.6, 0, 0.8)), 0);
     EXPECT_EQ(pdf_solid_angle(light, Vec(0), Vec(0, 0, -1)), 0);
+}
+
+TEST(SphereLight, StructuredSamplingAndMostRepresentativePointErrAsStated) {
+    const SphereLight<double> light{Vec(0), 0.5};
+    const auto exact = [&](const Vec& p, const Vec& n) { return projected_solid_angle(light, p, n); };
+    const auto whole = [&](const Vec& p) { return solid_angle(light, p); };
+    const auto structured = [&](const Vec& p, const Vec& n) {
+        return projected_solid_angle_structured(light, p, n);
+    };
+    const auto mrp = [&](const Vec& p, const Vec& n) { return projected_solid_angle_mrp(light, p, n); };
+    const double rows[][3] = {{.55, .175, .50}, {1, .040, .44}, {2, .013, .24}, {4, .0024, .12}};
+    for (const auto& [distance, by_structure, by_point] : rows) {
+        EXPECT_NEAR(worst_error(distance, structured, exact, whole), by_structure, .05 * by_structure);
+        EXPECT_NEAR(worst_error(distance, mrp, exact, whole), by_point, 5e-3);
+    }
+    EXPECT_EQ(structured(Vec(.1), Vec(0, 0, 1)), pi);
+    EXPECT_EQ(mrp(Vec(.1), Vec(0, 0, 1)), pi);
+    const SphereLight<double> none{Vec(0), 0};
+    EXPECT_EQ(projected_solid_angle_structured(none, Vec(0, 0, 1), Vec(0, 0, -1)), 0);
+    EXPECT_EQ(projected_solid_angle_mrp(none, Vec(0, 0, 1), Vec(0, 0, -1)), 0);
 }
 
 }  // namespace

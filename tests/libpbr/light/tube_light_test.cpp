@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/libpbr/light/area_reference.hpp"
+#include "tests/libpbr/support/chi_square.hpp"
 #include "tests/libpbr/support/property.hpp"
 
 namespace pbr {
@@ -165,6 +166,13 @@ TEST(TubeLight, StructuredSamplingErrsAsStated) {
     EXPECT_GT(structured(Vec(0, 0, 0.1001), Vec(0, 0, -1)), 1.2 * pi);  // beyond what any light can give
 }
 
+TEST(TubeLight, MostRepresentativePointErrsAsStated) {
+    const auto mrp = [](const Vec& p, const Vec& n) { return projected_solid_angle_mrp(kTube, p, n); };
+    EXPECT_NEAR(worst_error(0.75, mrp, kExact, kFacing), 0.47, 5e-3);
+    EXPECT_NEAR(worst_error(4, mrp, kExact, kFacing), 0.14, 5e-3);
+    EXPECT_EQ(projected_solid_angle_mrp(kTube, Vec(0), Vec(0, 0, 1)), pi);
+}
+
 RC_GTEST_PROP(TubeLight, AreaSampleAndInverseAreARoundTrip, ()) {
     const TubeLight<double> light = random_tube();
     const double u1 = *uniform(0.001, 0.999), u2 = *uniform(0, 1);
@@ -196,6 +204,23 @@ TEST(TubeLight, AreaSamplesHaveTheSurfacesMoments) {
         mean += f(sample_tube_area(light, u.u1, u.u2)) / kCount;
     }
     EXPECT_NEAR(mean, expected, 1e-3);
+}
+
+TEST(TubeLight, AreaSamplesAreUniform) {
+    // Twelve bands of equal height, so of equal area by Archimedes, by sixteen sectors.
+    const TubeLight<double> light{{1, 2, 3}, {1.5, 2.5, 2}, 0.8};
+    const double length = glm::length(light.end1 - light.end0);
+    const Vec axis = (light.end1 - light.end0) / length;
+    const auto [x, y] = plane_of(axis);
+    constexpr int kCount = 100'000;
+    std::vector<double> observed(12 * 16), expected(12 * 16, kCount / 192.0);
+    for (int i = 0; i < kCount; ++i) {
+        const Vec at = sample_tube_area(light, random_unit(7, i, 0), random_unit(7, i, 1)) - light.end0;
+        const double share = (glm::dot(at, axis) + light.radius) / (length + 2 * light.radius);
+        const double turns = std::atan2(glm::dot(at, y), glm::dot(at, x)) / (2 * pi) + .5;
+        observed[std::clamp(int(12 * share), 0, 11) * 16 + std::min(15, int(16 * turns))] += 1;
+    }
+    EXPECT_GT(pearson_p_value(observed, expected), kSignificance);
 }
 
 }  // namespace

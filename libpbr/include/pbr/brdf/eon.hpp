@@ -80,8 +80,8 @@ Colour f_eon(const Colour& rho, T diffuse_roughness, T NoL, T NoV, T LoV) {
     return f_eon_from_g(rho, diffuse_roughness, NoL, NoV, LoV, eon_g_exact(NoL), eon_g_exact(NoV));
 }
 
-/// EON, 1/sr, with the fitted albedo: no acos. Domain as f_eon. Reciprocal; the white albedo is within 5.3e-4
-/// of 1 and may exceed it, by 1.5e-4; absolute error 4e-4 against f_eon.
+/// EON, 1/sr, with the fitted albedo: no acos. Domain as f_eon. Reciprocal; the white albedo is
+/// within 5.43e-4 of 1 and may exceed it, by 1.5e-4; absolute error 4e-4 against f_eon.
 template <class Colour, class T>
 constexpr Colour f_eon_approximate(const Colour& rho, T diffuse_roughness, T NoL, T NoV, T LoV) {
     return f_eon_from_g(rho, diffuse_roughness, NoL, NoV, LoV, eon_g_approximate(NoL),

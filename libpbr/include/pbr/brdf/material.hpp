@@ -81,8 +81,9 @@ class Material {
     const Surface<T>& surface() const { return surface_; }
 
     /// The BRDF, 1/sr, without the cosine; 1/pi is inside. wo, wi unit vectors away from the surface; 0 where
-    /// either is not above it. Not negative, and finite where its lobes are (alpha >= 1e-4 and cosines >=
-    /// 1e-20 in float). Error as that of its lobes, and a rounding each.
+    /// either is not above it. Not negative, and finite where its lobes are (in float: alpha >= 1e-4 and
+    /// cosines >= 1e-20; or alpha >= 3e-15, the least that a smoothness below 1 gives, and cosines >= 1e-4).
+    /// Error as that of its lobes, and a rounding each.
     Vec3<T> f(const Vec3<T>& wo, const Vec3<T>& wi) const {
         if (wo.z <= T(0) || wi.z <= T(0)) return Vec3<T>(0);
         const Reflection<T> r = reflection(wo, wi);

@@ -41,7 +41,9 @@ struct ClearCoat {
 
 /// A layer of fibres over everything before it, as KHR_materials_sheen has it. colour in [0, 1] a channel,
 /// alpha in (0, 1] the fibres' own, albedo(cosine, alpha) that of the white lobe with V_charlie
-/// (albedo_charlie).
+/// (albedo_charlie). From alpha .07 up the albedo stays at most 1 if that of what is below does. Narrower
+/// fibres alone return more than arrived at grazing view, over black as over white: at most 1.103 at alpha
+/// .05, 1.335 at .03, 2.129 at .01. Hold alpha to .07 or more.
 template <class T, class Albedo>
 struct Cloth {
     Vec3<T> colour;
@@ -49,7 +51,7 @@ struct Cloth {
     Albedo albedo;
 
     /// The fibres' lobe, and what their albedo leaves of `below` on the way in or out, whichever is less;
-    /// 1/sr. The albedo stays at most 1 if that of `below` is.
+    /// 1/sr.
     Vec3<T> over(const Reflection<T>& r, const Vec3<T>& below) const {
         const T brightest = std::max({colour.x, colour.y, colour.z});
         const T shadow = brightest * std::max(albedo(r.NoL, alpha), albedo(r.NoV, alpha));

@@ -11,7 +11,8 @@
 //     Fdez-Aguera     for image-based light: one table look-up, no E_avg
 //
 // With f0 = 1 all three return what arrived; with colour they differ by how often light is counted as
-// coloured.
+// coloured. Against Kulla-Conty's albedo at f0 .2 to .9, NoV .1 to 1: Turquin's is off by at most 1.9 % at
+// alpha .5 and 23 % too bright at alpha 1 (f0 .5, NoV 1), Fdez-Aguera's by 1.6 % and 9.5 % (too dark there).
 
 #include <numbers>
 

@@ -85,9 +85,9 @@ constexpr T burley_scale_diffuse_mean_free_path(T albedo) {
 
 /// Irradiance that reaches the skin from below at a point of a sphere under a directional light, over that of
 /// a light at the zenith on a flat surface: for Penner's tables over (NoL, curvature) (Penner 2011,
-/// "Pre-integrated skin shading"). NoL in [-1, 1]; curvature_d >= 0 is d over the sphere's radius, d
+/// "Pre-integrated skin shading"). NoL in [-1, 1]; curvature_d >= 0, finite, is d over the sphere's radius, d
 /// Burley's. max(NoL, 0) at 0; its mean over the sphere is 1/4, as light only moves. Absolute error below
-/// 1e-9.
+/// 1e-7.
 ///
 /// Penner integrates the profile along a ring; Burley's, like 1/r, has no such integral. Here it is spread
 /// over the sphere itself, by chord length: the area within chord p is pi p^2, as on the plane, so that the

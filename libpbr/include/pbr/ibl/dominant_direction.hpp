@@ -29,7 +29,8 @@ T dominant_factor_frostbite(T alpha) {
 /// GSMITH_CORRELATED), clamped to [0, 1], which the listing leaves to its caller (unclamped it overshoots R
 /// by a tenth at alpha = 0). NoV, alpha in [0, 1]. Within 9 degrees of the brightest direction of D V NoL for
 /// NoV >= .1, but up to 58 degrees from the mean, so in the split sum it is hardly better than R (.52 to .45
-/// at alpha .5, NoV .3): as its authors say, precise and of little use there.
+/// at alpha .5, NoV .3): as its authors say, precise and of little use there. In float within 2e-5 for alpha
+/// < .99 and NoV > 1e-3; beyond, logarithm and power enlarge the arguments' own roundings.
 template <class T>
 T dominant_factor_peak_correlated(T NoV, T alpha) {
     const T at_normal = T(0.298475) * std::log(T(39.4115) - T(39.0029) * alpha);

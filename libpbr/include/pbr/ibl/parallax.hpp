@@ -87,7 +87,9 @@ struct ParallaxLookup {
 /// which need not be the proxy's centre. Without a hit (a point outside looking past the proxy) the direction
 /// is left as it is: infinitely far surroundings. A place that coincides with the capture point also leaves
 /// the direction. From the capture point itself the direction comes back within a few roundings. Seen from
-/// inside, continuous in point and direction.
+/// inside, continuous in point and direction. In float the direction is within 2e-5 for points inside a box
+/// of some metres, up to nine tenths of the way to its walls, and a capture point within half; beside a wall
+/// the way to the capture point may shrink to nothing, and its direction's error grows with that.
 template <class Proxy, class T>
 ParallaxLookup<T> parallax_corrected(const Proxy& proxy, const Vec3<T>& capture, const Vec3<T>& point,
                                      const Vec3<T>& direction) {

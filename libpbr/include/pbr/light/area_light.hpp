@@ -10,13 +10,16 @@
 //   projected_solid_angle_frostbite   closed form as published, where it isn't the exact one
 //   projected_solid_angle_mrp         solid angle x cosine at the most representative point
 //   projected_solid_angle_structured  solid angle x mean cosine of a few fixed points
+// All four shapes have the first and the last two; Frostbite has a closed form of its own for spheres and disks.
 // The last three are Lagarde & de Rousiers 2014, "Moving Frostbite to physically based rendering", 4.7.2;
 // their errors, as stated with them, are measured against the first by the tests ...ErrsAsStated. Positions
 // share one unit, any; results do not depend on it.
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "pbr/numerics/frame.hpp"
 #include "pbr/numerics/vector.hpp"
 
 namespace pbr {
@@ -32,25 +35,17 @@ T lit_height(const Vec3<T>& p, const Vec3<T>& centre, const Vec3<T>& normal, Emi
     return emission == Emission::two_sided ? std::abs(height) : height;
 }
 
-/// A right-handed orthonormal frame about a unit vector, which is its third axis.
-template <class T>
-struct AxisFrame {
-    Vec3<T> x, y, z;
+/// How many faces of a flat light shine, 1 or 2.
+constexpr int face_count(Emission emission) { return emission == Emission::two_sided ? 2 : 1; }
 
-    /// The vector with coordinates v in this frame.
-    Vec3<T> to_world(const Vec3<T>& v) const { return v.x * x + v.y * y + v.z * z; }
-    /// The coordinates of v in this frame.
-    Vec3<T> to_local(const Vec3<T>& v) const { return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)}; }
-};
-
-/// A frame about a unit vector z, without a branch on where z points but for the sign of z.z (Duff et al.
-/// 2017, "Building an orthonormal basis, revisited", listing 3). Orthonormal within 4 ulp.
+/// Mean of max(0, n.l) over the five directions l from the receiver to a light's middle and to the ends of two
+/// half axes from it: what structured sampling makes of a round light. The rays need not be unit vectors.
 template <class T>
-AxisFrame<T> frame_about(const Vec3<T>& z) {
-    const T sign = std::copysign(T(1), z.z);
-    const T a = T(-1) / (sign + z.z), b = z.x * z.y * a;
-    return {Vec3<T>(T(1) + sign * z.x * z.x * a, sign * b, -sign * z.x),
-            Vec3<T>(b, sign + z.y * z.y * a, -z.y), z};
+T mean_cross_cosine(const Vec3<T>& to_middle, const Vec3<T>& half_x, const Vec3<T>& half_y, const Vec3<T>& n) {
+    const auto cosine = [&](const Vec3<T>& ray) { return std::max(glm::dot(n, glm::normalize(ray)), T(0)); };
+    return (cosine(to_middle) + cosine(to_middle + half_x) + cosine(to_middle - half_x) +
+            cosine(to_middle + half_y) + cosine(to_middle - half_y)) /
+           T(5);
 }
 
 }  // namespace pbr

@@ -11,6 +11,7 @@
 
 #include "pbr/brdf/fresnel.hpp"
 #include "pbr/brdf/ggx.hpp"
+#include "pbr/ibl/dominant_direction.hpp"
 #include "pbr/light/disk_light.hpp"
 #include "pbr/light/rectangle_light.hpp"
 #include "pbr/light/sphere_light.hpp"
@@ -25,13 +26,14 @@ inline constexpr double kCourseNotesWidening = 1.0 / 3.0;
 /// ... and the engine's shader, which many copied, has 1/2.
 inline constexpr double kShaderWidening = 0.5;
 
-/// The unit vector about whose reflection the lobe peaks: R for a mirror, bent to the normal as it gets
-/// rougher, normalize(lerp(n, R, 1 - perceptual_roughness)) (Lagarde & de Rousiers 2014, 4.7.5). wo and n are
-/// unit vectors, n.wo > 0; perceptual_roughness in [0, 1].
+/// The unit vector about which the lobe is centred for area lights: R for a mirror, bent to the normal as it
+/// gets rougher, normalize(lerp(n, R, 1 - alpha)) (Lagarde & de Rousiers 2014, 4.7.5, listing 16, whose
+/// `roughness` is alpha as in listings 21 to 24, see ibl/dominant_direction.hpp: at alpha .1 to 1 and NoV .1 to
+/// .9 it is on average 3.6 degrees from the mean of the GGX lobe, and 7.2 with perceptual roughness). wo and n
+/// are unit vectors, n.wo > 0; alpha in [0, 1].
 template <class T>
-Vec3<T> dominant_direction_area(const Vec3<T>& n, const Vec3<T>& wo, T perceptual_roughness) {
-    const Vec3<T> reflected = T(2) * glm::dot(n, wo) * n - wo;
-    return glm::normalize(n + (reflected - n) * (T(1) - perceptual_roughness));
+Vec3<T> dominant_direction_area(const Vec3<T>& n, const Vec3<T>& wo, T alpha) {
+    return dominant_direction(n, T(2) * glm::dot(n, wo) * n - wo, T(1) - alpha);
 }
 
 /// The point of the ball nearest to the ray from p along the unit vector r; on the ray if it meets the ball

@@ -11,6 +11,7 @@
 #include "pbr/light/area_light.hpp"
 #include "pbr/light/rectangle_light.hpp"
 #include "pbr/light/sphere_light.hpp"
+#include "pbr/light/unit_conversions.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbr {
@@ -31,10 +32,18 @@ DiskLight<double> in_double(const DiskLight<T>& light) {
             light.emission};
 }
 
-/// Area of one face, pi r^2.
+/// What conversions of units need to know of it (light/unit_conversions.hpp): both faces of a two-sided light
+/// emit, one is seen. Positions in m.
+template <class T>
+Emitter<T> emitter_of(const DiskLight<T>& light) {
+    const Emitter<T> one_face = emitter_disk(light.radius);
+    return {T(face_count(light.emission)) * one_face.area_m2, one_face.facing_area_m2};
+}
+
+/// Area of one face: pi r^2.
 template <class T>
 T surface_area(const DiskLight<T>& light) {
-    return std::numbers::pi_v<T> * light.radius * light.radius;
+    return emitter_of(light).facing_area_m2;
 }
 
 /// Whether the disk's lit side faces p. False in its plane.
@@ -99,6 +108,30 @@ T projected_solid_angle_mrp(const DiskLight<T>& light, const Vec3<T>& p, const V
     const T length = glm::length(offset);
     const Vec3<T> point = light.centre + (length > light.radius ? offset * (light.radius / length) : offset);
     return solid_angle(light, p) * std::max(glm::dot(n, glm::normalize(point - p)), T(0));
+}
+
+/// The same for a sphere: of the disk that p sees in its place, as large and facing p. Over all tilts the largest
+/// error is 0.50, 0.44, 0.24 and 0.12 of the solid angle at 1.1, 2, 4 and 8 radii. pi inside.
+template <class T>
+T projected_solid_angle_mrp(const SphereLight<T>& light, const Vec3<T>& p, const Vec3<T>& n) {
+    if (is_inside(light, p)) return std::numbers::pi_v<T>;
+    if (!(light.radius > T(0))) return T(0);
+    const T scale2 = rim_scale2(light, p);
+    const Vec3<T> c = light.centre - p;
+    return projected_solid_angle_mrp(
+        DiskLight<T>{p + scale2 * c, -glm::normalize(c), light.radius * std::sqrt(scale2)}, p, n);
+}
+
+/// Solid angle times the mean clamped cosine of structured sampling, sr: the centre and four points of the rim,
+/// on the axis towards the receiver's normal and across it (the pattern of Lagarde & de Rousiers 2014, 4.7.2.5,
+/// who have it for rectangles alone). Over all directions and tilts the largest error is 0.47, 0.076, 0.024 and 0.0048
+/// of the solid angle at 1, 2, 4 and 8 radii.
+template <class T>
+T projected_solid_angle_structured(const DiskLight<T>& light, const Vec3<T>& p, const Vec3<T>& n) {
+    if (!is_lit(light, p)) return T(0);
+    const AxisFrame<T> frame = frame_towards(light.normal, n);
+    return solid_angle(light, p) *
+           mean_cross_cosine(light.centre - p, light.radius * frame.x, light.radius * frame.y, n);
 }
 
 /// A point of the disk, uniform in area. u1 chooses the radius, u2 the azimuth; both in [0, 1).

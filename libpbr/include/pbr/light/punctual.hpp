@@ -39,11 +39,13 @@ T distance_attenuation(T distance_m, T radius_m) {
     return distance_window(distance_m, radius_m) / nearest / nearest;
 }
 
-/// A spot's penumbra, as a shader takes it: attenuation sat(cosine * scale + offset)^2.
+/// A spot's penumbra: what a shader takes, attenuation sat(cosine * scale + offset)^2, and `on_axis` = scale +
+/// offset kept beside them, since that sum has lost its digits where the cone is narrow.
 template <class T>
 struct SpotCone {
     T scale;
     T offset;
+    T on_axis;  ///< >= 0; the value before sat on the axis: below 1 the light is dimmed even there
 };
 
 /// The smallest step of the cosine over which a spot goes dark (Lagarde & de Rousiers 2014, 4.4, the listing
@@ -59,8 +61,8 @@ template <class T>
 SpotCone<T> spot_cone(T inner_rad, T outer_rad) {
     // cos a - cos b as a product keeps its digits where both are near 1.
     const T step = T(2) * std::sin((outer_rad + inner_rad) / T(2)) * std::sin((outer_rad - inner_rad) / T(2));
-    const T scale = T(1) / std::max(step, T(kSpotCosineStep));
-    return {scale, -scale * std::cos(outer_rad)};
+    const T scale = T(1) / std::max(step, T(kSpotCosineStep)), half = std::sin(outer_rad / T(2));
+    return {scale, -scale * std::cos(outer_rad), scale * (T(2) * half * half)};
 }
 
 /// The share of a spot's intensity left at an angle from its axis, by the angle's cosine in [-1, 1]: 0
@@ -74,12 +76,12 @@ T spot_attenuation(T cosine, const SpotCone<T>& cone) {
 
 /// The solid angle that a spot's penumbra leaves of its cone, 2 pi times the integral of spot_attenuation
 /// over the cosine: with it intensity_from_power states the intensity on the axis of a spot that really emits
-/// that power. Exact to rounding of 1 - cos: absolute error below 16 ulp of 1.
+/// that power. Relative error below 16 ulp; 0 for an outer angle of 0.
 template <class T>
 Steradians<T> solid_angle_of_spot(const SpotCone<T>& cone) {
-    // t = sat(cosine scale + offset) rises from 0 at the outer edge to `top` on the axis, or to 1 before it.
-    const T top = cone.scale + cone.offset, ramp = std::clamp(top, T(0), T(1));
-    const T penumbra = ramp * ramp * ramp / T(3), full = std::max(top - T(1), T(0));
+    // t = sat(cosine scale + offset) rises from 0 at the outer edge to its value on the axis, or to 1 before.
+    const T ramp = std::min(cone.on_axis, T(1));
+    const T penumbra = ramp * ramp * ramp / T(3), full = std::max(cone.on_axis - T(1), T(0));
     return Steradians<T>(T(2) * std::numbers::pi_v<T> * (penumbra + full) / cone.scale);
 }
 

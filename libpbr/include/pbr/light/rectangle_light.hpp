@@ -10,6 +10,7 @@
 
 #include "pbr/light/area_light.hpp"
 #include "pbr/light/polygon.hpp"
+#include "pbr/light/unit_conversions.hpp"
 
 namespace pbr {
 
@@ -30,10 +31,18 @@ RectangleLight<double> in_double(const RectangleLight<T>& light) {
             light.emission};
 }
 
-/// Area of one face, 4 |half_x| |half_y|.
+/// What conversions of units need to know of it (light/unit_conversions.hpp): both faces of a two-sided light
+/// emit, one is seen. Positions in m.
+template <class T>
+Emitter<T> emitter_of(const RectangleLight<T>& light) {
+    const Emitter<T> one_face = emitter_rectangle(T(2) * glm::length(light.half_x), T(2) * glm::length(light.half_y));
+    return {T(face_count(light.emission)) * one_face.area_m2, one_face.facing_area_m2};
+}
+
+/// Area of one face: 4 |half_x| |half_y|.
 template <class T>
 T surface_area(const RectangleLight<T>& light) {
-    return T(4) * glm::length(light.half_x) * glm::length(light.half_y);
+    return emitter_of(light).facing_area_m2;
 }
 
 /// Unit normal of the front; the zero vector for a rectangle of no area.
@@ -67,16 +76,6 @@ T solid_angle(const RectangleLight<T>& light, const Vec3<T>& p) {
     const auto [a, b, c, d] = corners(exact);
     return static_cast<T>(
         std::abs(solid_angle_triangle(a, b, c, from) + solid_angle_triangle(a, c, d, from)));
-}
-
-/// Solid angle of a rectangle seen from a point `distance` above its centre, sr: 4 asin(ab / sqrt((a^2 +
-/// h^2)(b^2 + h^2))) (Lagarde & de Rousiers 2014, 4.7.2.5), here as atan2, which is safe at h = 0.
-/// half_width, half_height, distance >= 0, not all 0. Used off axis, as Frostbite considered for speed, it is
-/// wrong: it knows no tilt.
-template <class T>
-T solid_angle_right_pyramid(T distance, T half_width, T half_height) {
-    const T w2 = half_width * half_width, h2 = half_height * half_height, d2 = distance * distance;
-    return T(4) * std::atan2(half_width * half_height, distance * std::sqrt(w2 + h2 + d2));
 }
 
 /// Exact, sr; error of projected_solid_angle_polygon. n is the unit normal. 0 where is_lit is false.

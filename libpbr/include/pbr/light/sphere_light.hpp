@@ -12,6 +12,7 @@
 
 #include "pbr/brdf/ggx_sampling.hpp"
 #include "pbr/light/area_light.hpp"
+#include "pbr/light/unit_conversions.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbr {
@@ -23,10 +24,16 @@ struct SphereLight {
     T radius;
 };
 
-/// 4 pi r^2.
+/// What conversions of units need to know of it (light/unit_conversions.hpp). Positions in m.
+template <class T>
+Emitter<T> emitter_of(const SphereLight<T>& light) {
+    return emitter_sphere(light.radius);
+}
+
+/// Area of the surface: 4 pi r^2.
 template <class T>
 T surface_area(const SphereLight<T>& light) {
-    return T(4) * std::numbers::pi_v<T> * light.radius * light.radius;
+    return emitter_of(light).area_m2;
 }
 
 /// atan(q) - q without cancellation, q >= 0 (series below 0.1, where 8 terms leave 1e-17 of it). Relative
@@ -103,9 +110,32 @@ T one_minus_cos_half_angle(const SphereLight<T>& light, const Vec3<T>& p) {
 
 /// Solid angle, sr: 2 pi (1 - cos s); 2 pi on the surface, 4 pi inside. Relative error below 8 ulp where the
 /// sphere subtends less than 60 deg; growing like 1/cos s near its surface.
+/// That is of light.centre - p and light.radius as rounded: positions that share many digits lose them
+/// before.
 template <class T>
 T solid_angle(const SphereLight<T>& light, const Vec3<T>& p) {
     return T(2) * std::numbers::pi_v<T> * one_minus_cos_half_angle(light, p);
+}
+
+/// cos^2 s of the half-angle: the disk that p sees in the sphere's place has its middle at this share of the
+/// way to the centre, and its radius is r cos s. p outside the sphere.
+template <class T>
+T rim_scale2(const SphereLight<T>& light, const Vec3<T>& p) {
+    return T(1) - sin2_half_angle(light, p);
+}
+
+/// Solid angle times the mean clamped cosine of structured sampling, sr: the middle and four points of the
+/// rim, two of them highest and lowest over the receiver's horizon (the pattern of Lagarde & de Rousiers
+/// 2014, 4.7.2.5, who have it for rectangles alone; the closed form above is as cheap). Over all tilts the
+/// largest error is 0.175, 0.040, 0.013 and 0.0024 of the solid angle at 1.1, 2, 4 and 8 radii. pi inside.
+template <class T>
+T projected_solid_angle_structured(const SphereLight<T>& light, const Vec3<T>& p, const Vec3<T>& n) {
+    if (is_inside(light, p)) return std::numbers::pi_v<T>;
+    if (!(light.radius > T(0))) return T(0);
+    const T scale2 = rim_scale2(light, p), rim = light.radius * std::sqrt(scale2);
+    const Vec3<T> c = light.centre - p;
+    const AxisFrame<T> frame = frame_towards(glm::normalize(c), n);
+    return solid_angle(light, p) * mean_cross_cosine(scale2 * c, rim * frame.x, rim * frame.y, n);
 }
 
 /// The axis of the cone in which p sees the sphere; +z at the very centre.

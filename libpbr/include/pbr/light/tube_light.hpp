@@ -11,6 +11,7 @@
 #include "pbr/light/area_light.hpp"
 #include "pbr/light/rectangle_light.hpp"
 #include "pbr/light/sphere_light.hpp"
+#include "pbr/light/unit_conversions.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbr {
@@ -25,11 +26,16 @@ struct TubeLight {
     T radius;
 };
 
-/// 2 pi r (l + 2 r), l = |end1 - end0|.
+/// What conversions of units need to know of it (light/unit_conversions.hpp). Positions in m.
+template <class T>
+Emitter<T> emitter_of(const TubeLight<T>& light) {
+    return emitter_tube(light.radius, glm::length(light.end1 - light.end0));
+}
+
+/// Area of the surface: 2 pi r (l + 2 r), l = |end1 - end0|.
 template <class T>
 T surface_area(const TubeLight<T>& light) {
-    return T(2) * std::numbers::pi_v<T> * light.radius *
-           (glm::length(light.end1 - light.end0) + T(2) * light.radius);
+    return emitter_of(light).area_m2;
 }
 
 /// Exact, sr, for the whole capsule with its caps: Lambert's contour integral around its outline, which is
@@ -65,6 +71,20 @@ RectangleLight<T> rectangle_facing(const TubeLight<T>& light, const Vec3<T>& p) 
     return {centre, half, length > T(0) ? across * (light.radius / length) : Vec3<T>(0), Emission::two_sided};
 }
 
+/// Projected solid angle, sr, of a tube as Frostbite puts it together: of_rectangle of the rectangle that faces
+/// p, plus a whole sphere at the point of the axis nearest to p, without horizon handling. pi inside.
+template <class T, class OfRectangle>
+T projected_solid_angle_by_parts(const TubeLight<T>& light, const Vec3<T>& p, const Vec3<T>& n,
+                                 const OfRectangle& of_rectangle) {
+    const Vec3<T> to_axis = closest_point_on_segment(light.end0, light.end1, p) - p;
+    const T d2 = glm::dot(to_axis, to_axis), r2 = light.radius * light.radius;
+    if (d2 < r2) return std::numbers::pi_v<T>;
+    if (!(r2 > T(0))) return T(0);
+    const T cosine = std::max(glm::dot(n, to_axis) / std::sqrt(d2), T(0));
+    return of_rectangle(rectangle_facing(light, p)) +
+           std::numbers::pi_v<T> * cosine * r2 / d2;
+}
+
 /// Frostbite's tube, sr: the rectangle that faces p by structured sampling, plus a whole sphere at the point
 /// of the axis nearest to p without horizon handling (Lagarde & de Rousiers 2014, 4.7.2.6). The two overlap:
 /// for a tube ten times as long as its radius it is high by 23 % at 0.2 radii from its side, and over pi at
@@ -72,13 +92,16 @@ RectangleLight<T> rectangle_facing(const TubeLight<T>& light, const Vec3<T>& p) 
 /// and 0.14 of what a facing receiver gets at 0.75 and 4 lengths. p outside the tube (inside: pi).
 template <class T>
 T projected_solid_angle_structured(const TubeLight<T>& light, const Vec3<T>& p, const Vec3<T>& n) {
-    const Vec3<T> to_axis = closest_point_on_segment(light.end0, light.end1, p) - p;
-    const T d2 = glm::dot(to_axis, to_axis), r2 = light.radius * light.radius;
-    if (d2 < r2) return std::numbers::pi_v<T>;
-    if (!(r2 > T(0))) return T(0);
-    const T cosine = std::max(glm::dot(n, to_axis) / std::sqrt(d2), T(0));
-    return projected_solid_angle_structured(rectangle_facing(light, p), p, n) +
-           std::numbers::pi_v<T> * cosine * r2 / d2;
+    return projected_solid_angle_by_parts(
+        light, p, n, [&](const RectangleLight<T>& r) { return projected_solid_angle_structured(r, p, n); });
+}
+
+/// The same with the rectangle by its most representative point. Over all directions and tilts the largest
+/// error is 0.47 and 0.14 of what a facing receiver gets at 0.75 and 4 lengths. p outside the tube (inside: pi).
+template <class T>
+T projected_solid_angle_mrp(const TubeLight<T>& light, const Vec3<T>& p, const Vec3<T>& n) {
+    return projected_solid_angle_by_parts(
+        light, p, n, [&](const RectangleLight<T>& r) { return projected_solid_angle_mrp(r, p, n); });
 }
 
 /// A point of the tube's surface, uniform in area. u1 chooses the height along the axis, u2 the azimuth; both

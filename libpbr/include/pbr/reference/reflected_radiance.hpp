@@ -12,7 +12,9 @@
 //     reflected_radiance_half_vector   all directions          the same, GGX lobes of any narrowness
 //     reflected_radiance_from_cap      a cone of directions    sphere lights, the sun
 //     reflected_radiance_from_parallelogram, _from_disk        area lights, in reference/flat_light.hpp
+//     reflected_radiance_from_tube     directions of a tube    tube lights, in reference/tube_light.hpp
 //     reflected_radiance_from_texels   pictures, in reference/reflected_texels.hpp
+//     reflected_colour                 any of them in colour   a Material, in reference/colour.hpp
 
 #include <array>
 #include <cmath>

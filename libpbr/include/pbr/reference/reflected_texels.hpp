@@ -11,6 +11,7 @@
 #include "pbr/numerics/adaptive_quadrature.hpp"
 #include "pbr/numerics/sum.hpp"
 #include "pbr/numerics/vector.hpp"
+#include "pbr/reference/colour.hpp"
 
 namespace pbr {
 
@@ -20,18 +21,10 @@ struct BlockSum {
     double magnitude = 0;  ///< of the largest channel, radiance taken as its absolute value
 };
 
-/// An RGB integral with the estimate of its largest channel's error.
-struct ColourEstimate {
-    glm::dvec3 value{0.0};
-    double error = 0;
-    std::int64_t evaluations = 0;
-    bool converged = true;
-};
-
-/// The integral of brdf(wo, wi) L(wi) wi.z over the hemisphere, L being a picture constant over each texel.
-/// The sum over texels with their exact solid angles; within a texel Gauss-Legendre points, block by block
-/// (up to 8x8 texels) of rising order until two orders agree within `relative_tolerance` of the whole sum's
-/// scale. Blocks wholly below the surface cost nothing.
+/// The integral of brdf(wo, wi) L(wi) wi.z over the hemisphere, brdf a double or an RGB Vec3<double>, L a
+/// picture constant over each texel. The sum over texels with their exact solid angles; within a texel
+/// Gauss-Legendre points, block by block (up to 8x8 texels) of rising order until two orders agree within
+/// `relative_tolerance` of the whole sum's scale. Blocks wholly below the surface cost nothing.
 ///
 /// `world_to_surface` is a rotation that takes the picture's world to the frame of the surface, normal +z; wo
 /// is in that frame, wo.z > 0. Limits: points are rounded to float, so a lobe of width alpha is off by about
