@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "pbr/light/disk_light.hpp"
 #include "pbr/light/emissive.hpp"
 #include "pbr/light/luminous_efficacy.hpp"
+#include "pbr/light/photometric_web.hpp"
 #include "pbr/light/punctual.hpp"
 #include "pbr/light/rectangle_light.hpp"
 #include "pbr/light/solid_angle.hpp"
@@ -164,6 +166,21 @@ double environment_lux_by_reference(const CubeTexel& texel) {
         .value.y;
 }
 
+/// A photometric web that is alike all round, as measured candela or, given `power`, as the shape of a lamp
+/// of other lumens.
+double web_lux(Photometry type, double candela, std::optional<Lumens<double>> power) {
+    const bool c = type == Photometry::type_c;
+    const std::vector<double> vertical =
+        c ? std::vector<double>{0, 90, 180} : std::vector<double>{-90, 0, 90};
+    const std::vector<double> horizontal = c ? std::vector<double>{0} : std::vector<double>{-180, 0, 180};
+    const bool b = type == Photometry::type_b;  // its elevation is the horizontal angle
+    const PhotometricWeb web(type, c ? HorizontalCover::axial : HorizontalCover::range,
+                             b ? horizontal : vertical, b ? vertical : horizontal,
+                             std::vector<double>(vertical.size() * horizontal.size(), candela));
+    const double scale = power ? power->value() / web.flux_lm() : 1;
+    return point_lux(Candelas<double>(web.evaluate_cd({.3, -.2, -.7}) * scale));
+}
+
 /// A way to state the light, and the lux that the plane then gets.
 struct Statement {
     std::string what;
@@ -248,6 +265,10 @@ std::vector<Statement> statements() {
         {"sun, nit", sky_disk_lux(disk_luminance_from_illuminance(kFacingLux, sun), sun)},
         {"environment, texel at a face's middle", environment_lux(1024, {2, 511, 512})},
         {"environment, texel at a corner", environment_lux(1024, {5, 0, 1023})},
+        {"web of type C, cd", web_lux(Photometry::type_c, 250, {})},
+        {"web of type A, cd", web_lux(Photometry::type_a, 250, {})},
+        {"web of type C, lm", web_lux(Photometry::type_c, 3, Lumens<double>(1000 * kPi))},
+        {"web of type B, lm", web_lux(Photometry::type_b, .5, Lumens<double>(1000 * kPi))},
         {"environment, by the reference", environment_lux_by_reference({1, 300, 20})},
     };
 }
