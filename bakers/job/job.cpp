@@ -91,6 +91,7 @@ class Reading {
     /// "auto" gives way to what it stands for: records say what was stored.
     void read_pixel(Json& json, const std::string& at, Bake& bake) {
         try {
+            bake.pixel_stated = json["pixel"] != "auto";
             bake.pixel = settle_pixel(bake.format, json["pixel"].get<std::string>());
             json["pixel"] = pixel_name(bake.pixel);
         } catch (const Error& error) {

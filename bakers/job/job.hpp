@@ -28,6 +28,7 @@ struct Bake {
     std::string kind, name, format;
     std::string file;  ///< of its first image, in the job's output folder: "lamp.exr"
     PixelType pixel = PixelType::half;
+    bool pixel_stated = false;  ///< by the job, instead of "auto"
     Certify certify = Certify::sampled;
     Accuracy accuracy;
     Json json;    ///< what the baker reads: every property, defaults filled in

@@ -4,6 +4,7 @@
 #include <new>
 #include <sstream>
 
+#include "bakers/formats.hpp"
 #include "bakers/io/io.hpp"
 #include "bakers/job/json_text.hpp"
 #include "bakers/run/atomic_file.hpp"
@@ -143,6 +144,11 @@ class BakeRun {
         product_ = bake_.baker->run(bake_.json, inputs_, *context);
         report_.bake_evaluations = context->counts();
         for (const std::string& warning : product_.warnings) report_.warnings.push_back(warning);
+        // A baker's own choice gives way to a pixel type that the job states, and to what its format holds.
+        const Format& format = *find_format(bake_.format);
+        if (product_.pixel &&
+            (bake_.pixel_stated || std::ranges::find(format.pixels, *product_.pixel) == format.pixels.end()))
+            product_.pixel.reset();
         product_.scale = io::quantise(product_.images, pixel());
         if (product_.scale != 1)
             report_.warnings.push_back("values exceed what the pixel format holds; they are stored times " +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bakers/formats.hpp"
 #include "bakers/job/json_text.hpp"
 #include "bakers/run/run.hpp"
 
@@ -49,12 +50,6 @@ Json certificate_json(const Certificate& certificate, const std::map<std::string
     return json;
 }
 
-/// The pixel type that was stored, as the job names it.
-Json pixel_json(const job::Bake& bake, const Product& product) {
-    if (!product.pixel) return bake.params["pixel"];
-    return *product.pixel == PixelType::half ? "half" : "float";
-}
-
 }  // namespace
 
 Json figure_json(const Figure& figure) {
@@ -78,7 +73,7 @@ Json entry(const job::Job& job, const job::Bake& bake, std::span<const job::Sour
               {"working_space", job.working_space},
               {"inputs", inputs_json(sources, inputs)},
               {"outputs", outputs_json(outputs)},
-              {"pixel", pixel_json(bake, product)},
+              {"pixel", product.pixel ? Json(pixel_name(*product.pixel)) : bake.params["pixel"]},
               {"units", product.units},
               {"scale", product.scale}};
     for (const auto& [key, value] : product.properties.items()) json[key] = value;

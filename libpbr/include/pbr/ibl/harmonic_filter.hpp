@@ -83,9 +83,6 @@ class HarmonicGrid {
     /// fields whose highest degrees hold little, as filtered ones do.
     std::array<float, 3> sample(const glm::dvec3& direction) const;
 
-    /// Grid points, for memory and work estimates.
-    long points() const { return static_cast<long>(rows_) * columns_; }
-
   private:
     static constexpr int kBorder = 3;
     float* at(int row, int column) { return &texels_[((row + kBorder) * stride_ + column + kBorder) * 4]; }
