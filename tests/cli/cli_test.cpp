@@ -186,6 +186,22 @@ TEST(Documents, MatchTheirSchemas) {
     expect_valid("report", run_program({"bake", job, "--dry-run", "--json"}).out);
 }
 
+TEST(Bake, ATablesChoiceOfPixelGivesWayToTheJobAndTheFormat) {
+    const TemporaryFolder folder;
+    for (const auto& [settings, pixel] : {std::pair{R"("format": "png")", "unorm16"},
+                                          {R"("format": "exr", "pixel": "float")", "float"},
+                                          {R"("format": "exr")", "half"}}) {
+        const fs::path job = folder.write(
+            "job.json",
+            job_text(R"({"kind": "dfg", "name": "t", "accuracy": {"max_error": 0.02, "as": "sampled"}, )" +
+                     std::string(settings) + "}"));
+        ASSERT_EQ(run_program({"bake", job}).code, 0) << settings;
+        EXPECT_THAT(read_file(folder / "out/manifest.json"),
+                    HasSubstr("\"pixel\": \"" + std::string(pixel) + "\",\n      \"units\""))
+            << settings;
+    }
+}
+
 TEST(Documents, HoldNoAbsolutePaths) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_program({"bake", folder.write("job.json", job_text(kSmall))}).code, 0);
