@@ -12,6 +12,7 @@
 #include "src/ibl/lat_long_grid.hpp"
 #include "src/ibl/ring_modes.hpp"
 #include "src/ibl/spread_cube.hpp"
+#include "src/simd/lat_long_kernel.hpp"
 #include "src/simd/legendre_kernel.hpp"
 
 namespace pbr {
@@ -255,22 +256,13 @@ void HarmonicGrid::fill_border() {
         }
 }
 
-std::array<float, 3> HarmonicGrid::sample(const glm::dvec3& direction) const {
-    const glm::dvec2 point = equirect_point(world_to_source_ * direction);
-    const double px = point.x * columns_, py = point.y * rows_ - 0.5;
-    const int x = std::min(static_cast<int>(px), columns_ - 1), y = static_cast<int>(std::floor(py));
-    const std::array<double, 6> wide_x = lagrange_weights(px - x), wide_y = lagrange_weights(py - y);
-    float wx[6], wy[6];
-    for (int i = 0; i < 6; ++i) wx[i] = static_cast<float>(wide_x[i]), wy[i] = static_cast<float>(wide_y[i]);
-    float sum[4] = {0, 0, 0, 0};
-    for (int j = 0; j < 6; ++j) {
-        const float* p = &texels_[((y - 2 + j + kBorder) * stride_ + x - 2 + kBorder) * 4];
-        float row[4] = {0, 0, 0, 0};
-        for (int i = 0; i < 6; ++i)
-            for (int c = 0; c < 4; ++c) row[c] += wx[i] * p[i * 4 + c];
-        for (int c = 0; c < 4; ++c) sum[c] += wy[j] * row[c];
-    }
-    return {sum[0], sum[1], sum[2]};
+void HarmonicGrid::sample(std::span<const glm::dvec3> directions, std::span<float> rgb_out) const {
+    const LatLongTexels grid{&texels_[(kBorder * stride_ + kBorder) * 4], stride_, rows_, columns_};
+    std::vector<glm::dvec3> turned(directions.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) turned[i] = world_to_source_ * directions[i];
+    std::vector<glm::dvec2> points(directions.size());
+    equirect_points(turned, points);
+    interpolate(grid, points, rgb_out);
 }
 
 }  // namespace pbr

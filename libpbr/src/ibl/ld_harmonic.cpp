@@ -159,12 +159,10 @@ std::uint64_t LdHarmonic::Level::integrate(std::span<const glm::dvec3> direction
         bright.resize(directions.size() * 3);
         ld_partial(*bright_, alpha_, directions, bright, evaluations);
     }
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-        const std::array<float, 3> soft = grid_->sample(directions[i]);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double apart = bright_ ? bright[i * 3 + c] : 0;
-            rgb_out[i * 3 + c] = std::max(0.0f, static_cast<float>(static_cast<double>(soft[c]) + apart));
-        }
+    grid_->sample(directions, rgb_out);
+    for (std::size_t i = 0; i < rgb_out.size(); ++i) {
+        const double apart = bright_ ? bright[i] : 0;
+        rgb_out[i] = std::max(0.0f, static_cast<float>(static_cast<double>(rgb_out[i]) + apart));
     }
     return evaluations;
 }

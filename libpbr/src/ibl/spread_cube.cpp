@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "pbr/numerics/quadrature.hpp"
@@ -26,18 +27,23 @@ void add_points(const CubeView& source, const glm::dvec3& constant, int face, in
                                                   [](const CubeTexel& p, const CubeTexel& q) {
                                                       return std::pair(p.face, p.y) < std::pair(q.face, q.y);
                                                   });
+    std::vector<glm::dvec3> directions;
+    for (int x = 0; x < source.size; ++x)
+        for (int j = 0; j < rule.size(); ++j)
+            for (int i = 0; i < rule.size(); ++i)
+                directions.push_back(cube_vector(face, 2 * (x + rule.nodes[i]) / source.size - 1,
+                                                 2 * (y + rule.nodes[j]) / source.size - 1));
+    std::vector<glm::dvec2> at(directions.size());
+    equirect_points(directions, at);
     for (int x = 0; x < source.size; ++x) {
         const bool black = std::any_of(left_out, end, [x](const CubeTexel& texel) { return texel.x == x; });
         const std::size_t first = points.size();
         double sum = 0;
         for (int j = 0; j < rule.size(); ++j)
             for (int i = 0; i < rule.size(); ++i) {
-                const double s = 2 * (x + rule.nodes[i]) / source.size - 1,
-                             t = 2 * (y + rule.nodes[j]) / source.size - 1;
-                const double length2 = 1 + s * s + t * t,
+                const double length2 = glm::dot(directions[points.size()], directions[points.size()]),
                              weight = rule.weights[i] * rule.weights[j] / (length2 * std::sqrt(length2));
-                const glm::dvec2 at = equirect_point(cube_vector(face, s, t));
-                const double column = at.x * columns, row = at.y * rows - 0.5;
+                const double column = at[points.size()].x * columns, row = at[points.size()].y * rows - 0.5;
                 const double left = std::floor(column), top = std::floor(row);
                 points.push_back({static_cast<float>(column - left),
                                   static_cast<float>(row - top),

@@ -125,7 +125,8 @@ TEST(HarmonicGrid, IsTheSumOfHarmonics) {
     std::vector<glm::dvec3> directions{{0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {1e-9, 0, -1}, {1e-6, -1, 1e-6}};
     for (int i = 0; i < 300; ++i) directions.push_back(random_direction(3, i));
     for (const glm::dvec3& d : directions) {
-        const std::array<float, 3> found = grid.sample(glm::normalize(d));
+        std::array<float, 3> found;
+        grid.sample(std::array{glm::normalize(d)}, found);
         const glm::dvec3 expected = field_of(spectrum, kernel, glm::normalize(d));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / expected[c], 1, 2e-5);
     }
@@ -139,8 +140,8 @@ TEST(LegendreSums, RoundTripOnGaussRingsAtHighOrders) {
     std::vector<double> colatitudes, weights;
     for (int i = 0; i < rule.size() / 2; ++i) {
         colatitudes.push_back(2 * std::asin(std::sqrt(rule.nodes[i])));
-        // dmu = 2 dnode with nodes (1 - mu) / 2; analysis takes sums of both hemispheres, twice what synthesis
-        // gives.
+        // dmu = 2 dnode with nodes (1 - mu) / 2; analysis takes sums of both hemispheres, twice what
+        // synthesis gives.
         weights.push_back(8 * std::numbers::pi * rule.weights[i]);
     }
     const Rings rings(colatitudes);

@@ -79,9 +79,9 @@ class HarmonicGrid {
     /// The field with coefficients kernel[l] E_lm, l up to kernel.size() - 1 <= spectrum.bands().
     HarmonicGrid(const HarmonicSpectrum& spectrum, std::span<const double> kernel, const ForEach& each);
 
-    /// RGB in a world direction (unit), interpolated from 6 x 6 grid points. Relative error below 2e-5 for
-    /// fields whose highest degrees hold little, as filtered ones do.
-    std::array<float, 3> sample(const glm::dvec3& direction) const;
+    /// RGB in world directions (unit), interpolated from 6 x 6 grid points; `rgb_out` holds 3 floats each.
+    /// Relative error below 2e-5 for fields whose highest degrees hold little, as filtered ones do.
+    void sample(std::span<const glm::dvec3> directions, std::span<float> rgb_out) const;
 
   private:
     static constexpr int kBorder = 3;
