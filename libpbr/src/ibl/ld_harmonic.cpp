@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "pbr/ibl/ld.hpp"
 #include "pbr/ibl/zonal_harmonics.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
 #include "pbr/numerics/elementary.hpp"
@@ -114,7 +113,7 @@ LdHarmonic::LdHarmonic(const CubeView& source, double smallest_alpha, double max
 template <class View>
 void LdHarmonic::prepare(const View& source, int rows, double smallest_alpha, const ForEach& each) {
     assert(smallest_alpha > 0 && smallest_alpha <= 1 && max_error_ > 0);
-    if (!bright_.empty()) bright_blocks_.emplace(source, bright_);
+    if (!bright_.empty()) bright_texels_.emplace(PatchBlocks(source, bright_));
     spectrum_.emplace(source, bands_for(smallest_alpha, max_error_),
                       points_a_row(rows, smallest_alpha, max_error_), each, bright_);
     const std::span<const double, 6> average = spectrum_->coefficient(0, 0);
@@ -129,7 +128,7 @@ int LdHarmonic::bands_for(double alpha, double max_error) {
 }
 
 LdHarmonic::Level::Level(const LdHarmonic& of, double alpha, const ForEach& each)
-    : alpha_(alpha), bright_(of.bright_blocks_ ? &*of.bright_blocks_ : nullptr) {
+    : alpha_(alpha), bright_(of.bright_texels_ ? &*of.bright_texels_ : nullptr) {
     const std::vector<double> kernel = zonal_ggx(GgxZonalKernel(alpha), of.bands() + 1);
     bands_ = band_limit(of, kernel);
     grid_.emplace(*of.spectrum_, std::span(kernel).first(static_cast<std::size_t>(bands_) + 1), each);
@@ -157,7 +156,7 @@ std::uint64_t LdHarmonic::Level::integrate(std::span<const glm::dvec3> direction
     std::vector<double> bright;
     if (bright_) {
         bright.resize(directions.size() * 3);
-        ld_partial(*bright_, alpha_, directions, bright, evaluations);
+        evaluations = bright_->integrate(alpha_, directions, bright);
     }
     grid_->sample(directions, rgb_out);
     for (std::size_t i = 0; i < rgb_out.size(); ++i) {

@@ -13,10 +13,10 @@
 #include <span>
 #include <vector>
 
+#include "pbr/ibl/bright_texels.hpp"
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/ibl/harmonic_filter.hpp"
-#include "pbr/ibl/patches.hpp"
 
 namespace pbr {
 
@@ -53,7 +53,7 @@ class LdHarmonic {
         double truncation_error_ = 0;
         int bands_;
         std::optional<HarmonicGrid> grid_;
-        const PatchBlocks* bright_;
+        const BrightTexels* bright_;
     };
 
     /// Prepares a level. alpha in [smallest_alpha, 1].
@@ -77,7 +77,7 @@ class LdHarmonic {
 
     double max_error_;
     std::vector<CubeTexel> bright_;
-    std::optional<PatchBlocks> bright_blocks_;
+    std::optional<BrightTexels> bright_texels_;
     std::optional<HarmonicSpectrum> spectrum_;
     double mean_;  ///< of what is left, over channels
 };
