@@ -8,6 +8,7 @@
 #include "pbr/ibl/zonal_harmonics.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
 #include "pbr/numerics/elementary.hpp"
+#include "src/simd/spread_kernel.hpp"
 
 namespace pbr {
 namespace {
@@ -46,19 +47,19 @@ std::vector<double> solid_angles(const CubeView& source, int row) {
     return result;
 }
 
-struct RowLight {
-    std::array<double, 3> flux{};
-    std::array<float, 3> largest{};
-};
-
-template <class View>
-RowLight light_of_row(const View& source, int row) {
+/// Flux of a row's channels, and their largest values.
+RowLight light_of_row(const EquirectView& source, int row) {
+    RowLight light = row_light(source.texel(0, row), source.width);
+    for (double& sum : light.sum) sum *= equirect_texel_solid_angle(source.width, source.height, row);
+    return light;
+}
+RowLight light_of_row(const CubeView& source, int row) {
     RowLight light;
     const std::vector<double> weights = solid_angles(source, row);
     const float* rgb = rgb_of(source, texel_of(source, row, 0));
     for (const double solid_angle : weights)
         for (std::size_t c = 0; c < 3; ++c, ++rgb) {
-            light.flux[c] += solid_angle * static_cast<double>(*rgb);
+            light.sum[c] += solid_angle * static_cast<double>(*rgb);
             light.largest[c] = std::max(light.largest[c], *rgb);
         }
     return light;
@@ -72,7 +73,7 @@ std::vector<CubeTexel> find_bright_texels(const View& source, const ForEach& eac
          [&](int row) { rows[static_cast<std::size_t>(row)] = light_of_row(source, row); });
     std::array<double, 3> flux{};
     for (const RowLight& row : rows)
-        for (std::size_t c = 0; c < 3; ++c) flux[c] += row.flux[c];
+        for (std::size_t c = 0; c < 3; ++c) flux[c] += row.sum[c];
     std::vector<CubeTexel> bright;
     for (int row = 0; row < row_count(source); ++row) {
         const auto exceeds_mean = [&](std::size_t c, double value) {
