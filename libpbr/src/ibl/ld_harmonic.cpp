@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "pbr/ibl/split_kernel.hpp"
 #include "pbr/ibl/zonal_harmonics.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
 #include "pbr/numerics/elementary.hpp"
@@ -102,23 +104,30 @@ std::vector<CubeTexel> find_bright_texels(const View& source, const ForEach& eac
 LdHarmonic::LdHarmonic(const EquirectView& source, double smallest_alpha, double max_error,
                        const ForEach& each)
     : max_error_(max_error), bright_(find_bright_texels(source, each)) {
-    prepare(source, source.height, smallest_alpha, each);
+    constexpr int kMostBands = 600;
+    equirect_ = source;
+    prepare(source, source.height, smallest_alpha, kMostBands, each);
 }
 
 LdHarmonic::LdHarmonic(const CubeView& source, double smallest_alpha, double max_error, const ForEach& each)
     : max_error_(max_error), bright_(find_bright_texels(source, each)) {
-    prepare(source, 2 * source.size, smallest_alpha,
-            each);  // texels are pi / (2 size) high at the middle of a face
+    // Texels are pi / (2 size) high at the middle of a face.
+    prepare(source, 2 * source.size, smallest_alpha, std::numeric_limits<int>::max(), each);
 }
 
 template <class View>
-void LdHarmonic::prepare(const View& source, int rows, double smallest_alpha, const ForEach& each) {
+void LdHarmonic::prepare(const View& source, int rows, double smallest_alpha, int most_bands,
+                         const ForEach& each) {
     assert(smallest_alpha > 0 && smallest_alpha <= 1 && max_error_ > 0);
     if (!bright_.empty()) bright_texels_.emplace(PatchBlocks(source, bright_));
-    spectrum_.emplace(source, bands_for(smallest_alpha, max_error_),
-                      points_a_row(rows, smallest_alpha, max_error_), each, bright_);
+    const int wanted = bands_for(smallest_alpha, max_error_), bands = std::min(wanted, most_bands);
+    const double narrowest = smallest_alpha * wanted / bands;  // of the lobes left to harmonics
+    spectrum_.emplace(source, bands, points_a_row(rows, narrowest, max_error_), each, bright_);
+}
+
+glm::dvec3 LdHarmonic::mean() const {
     const std::span<const double, 6> average = spectrum_->coefficient(0, 0);
-    mean_ = (average[0] + average[2] + average[4]) / 3 / std::sqrt(4 * std::numbers::pi);
+    return glm::dvec3(average[0], average[2], average[4]) / std::sqrt(4 * std::numbers::pi);
 }
 
 int LdHarmonic::bands_for(double alpha, double max_error) {
@@ -130,14 +139,27 @@ int LdHarmonic::bands_for(double alpha, double max_error) {
 
 LdHarmonic::Level::Level(const LdHarmonic& of, double alpha, const ForEach& each)
     : alpha_(alpha), bright_(of.bright_texels_ ? &*of.bright_texels_ : nullptr) {
-    const std::vector<double> kernel = zonal_ggx(GgxZonalKernel(alpha), of.bands() + 1);
+    const GgxZonalKernel lobe(alpha);
+    std::vector<double> kernel;
+    if (bands_for(alpha, of.max_error_) <= of.bands() || !of.equirect_.rgb) {
+        kernel = zonal_ggx(lobe, of.bands() + 1);
+    } else {
+        const SplitKernel split(lobe, SplitKernel::radius_for(of.bands(), of.max_error_));
+        kernel = zonal_far(split, of.bands() + 1);
+        // Rounded, so that the near part of a constant picture is nothing but what is added here.
+        const glm::dvec3 constant(glm::vec3(of.mean()));
+        near_constant_ = constant * (1 - kernel[0]);
+        near_.emplace(of.equirect_, constant, of.bright_, split);
+    }
     bands_ = band_limit(of, kernel);
     grid_.emplace(*of.spectrum_, std::span(kernel).first(static_cast<std::size_t>(bands_) + 1), each);
 }
 
 int LdHarmonic::Level::band_limit(const LdHarmonic& of, std::span<const double> kernel) {
-    if (!(of.mean_ > 0)) return 0;
-    const double scale = 12 * std::numbers::pi * of.mean_ * of.mean_;  // sphere times channels
+    const glm::dvec3 channels = of.mean();
+    const double mean = (channels.x + channels.y + channels.z) / 3;
+    if (!(mean > 0)) return 0;
+    const double scale = 12 * std::numbers::pi * mean * mean;  // sphere times channels
     const double allowed = 0.01 * of.max_error_ * of.max_error_ * scale;
     double lost = 0;
     int bands = of.bands();
@@ -154,16 +176,15 @@ int LdHarmonic::Level::band_limit(const LdHarmonic& of, std::span<const double> 
 std::uint64_t LdHarmonic::Level::integrate(std::span<const glm::dvec3> directions,
                                            std::span<float> rgb_out) const {
     std::uint64_t evaluations = 0;
-    std::vector<double> bright;
-    if (bright_) {
-        bright.resize(directions.size() * 3);
-        evaluations = bright_->integrate(alpha_, directions, bright);
+    std::vector<double> apart(directions.size() * 3);
+    if (bright_) evaluations += bright_->integrate(alpha_, directions, apart);
+    if (near_) {
+        for (std::size_t i = 0; i < apart.size(); ++i) apart[i] += near_constant_[static_cast<int>(i % 3)];
+        evaluations += near_->add(directions, apart);
     }
     grid_->sample(directions, rgb_out);
-    for (std::size_t i = 0; i < rgb_out.size(); ++i) {
-        const double apart = bright_ ? bright[i] : 0;
-        rgb_out[i] = std::max(0.0f, static_cast<float>(static_cast<double>(rgb_out[i]) + apart));
-    }
+    for (std::size_t i = 0; i < rgb_out.size(); ++i)
+        rgb_out[i] = std::max(0.0f, static_cast<float>(static_cast<double>(rgb_out[i]) + apart[i]));
     return evaluations;
 }
 
