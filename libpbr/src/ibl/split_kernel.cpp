@@ -32,7 +32,7 @@ double SplitKernel::far(double one_minus_mu) const {
 
 double SplitKernel::radius_for(int bands, double max_error) {
     const double digits = std::clamp(-log2_exact(max_error) / log2_exact(10), 1.0, 6.0);
-    return std::min(1.0, (5 * digits - 2) / bands);
+    return std::min(1.0, (5 * digits - 1) / bands);
 }
 
 }  // namespace pbr

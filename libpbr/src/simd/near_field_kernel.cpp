@@ -77,11 +77,12 @@ std::uint64_t near_sum(const NearKernel& kernel, const NearWindow& window,
             const float* own = &squares[0][first];
             const double nearest2 =
                 middle_a + middle_b * static_cast<double>(*std::min_element(own, own + kNearLanes));
-            const double nearest = std::max(0.0, std::sqrt(nearest2) - window.texel_angle);
+            const double centre = std::sqrt(nearest2), nearest = std::max(0.0, centre - window.texel_angle);
             if (nearest * nearest >= 2 * static_cast<double>(kernel.limit)) continue;
-            const double reach = window.texel_angle / std::sqrt(window.poles2 + nearest2);
+            const double edge = std::max(0.0, centre - window.texel_angle / 2);
+            const double reach = window.texel_angle / std::sqrt(window.poles2 + edge * edge);
             std::size_t index = 0;
-            const double wanted = reach < 0.15 ? 1 : 1 + 4 * reach;
+            const double wanted = reach < 0.2 ? 1 : 1 + 4 * reach;
             while (index + 1 < rules.size() && rules[index].order < wanted) ++index;
             const NearField::Points& points = rules[index];
             if (squares[index].empty()) half_azimuths(window, points, squares[index]);
@@ -204,7 +205,7 @@ NearField::NearField(const EquirectView& source, const glm::dvec3& constant,
         std::fill_n(patched_.begin() + (row - patched_.data()) + 3L * texel.x, 3, 0.0f);
     }
     const double reach = texel_angle_ / (2 * split.kernel().alpha());
-    for (const int order : {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64}) {
+    for (const int order : {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128}) {
         rules_.push_back(points_of(source, order));
         if (order >= 1 + 4 * reach) break;
     }
