@@ -61,6 +61,11 @@ std::uint64_t near_sum(const NearKernel& kernel, const NearWindow& window,
     const std::size_t lanes = hn::Lanes(d), columns = static_cast<std::size_t>(window.blocks) * kNearLanes;
     for (std::vector<float>& of_rule : squares) of_rule.clear();
     half_azimuths(window, rules[0], squares[0]);
+    std::vector<float>& least = squares.back();  // of each block
+    for (int block = 0; block < window.blocks; ++block) {
+        const float* own = &squares[0][static_cast<std::size_t>(block) * kNearLanes];
+        least.push_back(*std::min_element(own, own + kNearLanes));
+    }
     HWY_ALIGN_MAX float sums[3][kNearLanes] = {};
     std::uint64_t evaluations = 0;
     for (int row = window.top; row < window.bottom; ++row) {
@@ -74,16 +79,11 @@ std::uint64_t near_sum(const NearKernel& kernel, const NearWindow& window,
         place(rules[0], 0, middle_a, middle_b);
         for (int block = 0; block < window.blocks; ++block) {
             const std::size_t first = static_cast<std::size_t>(block) * kNearLanes;
-            const float* own = &squares[0][first];
             const double nearest2 =
-                middle_a + middle_b * static_cast<double>(*std::min_element(own, own + kNearLanes));
-            const double centre = std::sqrt(nearest2), nearest = std::max(0.0, centre - window.texel_angle);
-            if (nearest * nearest >= 2 * static_cast<double>(kernel.limit)) continue;
-            const double edge = std::max(0.0, centre - window.texel_angle / 2);
-            const double reach = window.texel_angle / std::sqrt(window.poles2 + edge * edge);
+                middle_a + middle_b * static_cast<double>(least[static_cast<std::size_t>(block)]);
+            if (nearest2 >= window.beyond2) continue;
             std::size_t index = 0;
-            const double wanted = reach < 0.2 ? 1 : 1 + 4 * reach;
-            while (index + 1 < rules.size() && rules[index].order < wanted) ++index;
+            while (index + 1 < rules.size() && nearest2 < rules[index].from2) ++index;
             const NearField::Points& points = rules[index];
             if (squares[index].empty()) half_azimuths(window, points, squares[index]);
 
@@ -152,7 +152,7 @@ constexpr double kPi = std::numbers::pi;
 
 NearField::Points points_of(const EquirectView& source, int order) {
     const QuadratureRule rule = gauss_legendre(order);
-    NearField::Points points{order, {}, {}, {}, {}, {}, {}};
+    NearField::Points points{order, 0, {}, {}, {}, {}, {}, {}};
     for (int row = 0; row < source.height; ++row) {
         double sines = 0;
         for (int i = 0; i < order; ++i) {
@@ -204,10 +204,14 @@ NearField::NearField(const EquirectView& source, const glm::dvec3& constant,
         }
         std::fill_n(patched_.begin() + (row - patched_.data()) + 3L * texel.x, 3, 0.0f);
     }
-    const double reach = texel_angle_ / (2 * split.kernel().alpha());
+    // Gauss-Legendre over a texel of angle h converges once h is well below the distance of the kernel's
+    // poles, about hypot(2 alpha, angle); of lobes narrower than texels it is that of the texel's edge.
+    const double poles = 2 * split.kernel().alpha(), margin = poles < texel_angle_ ? texel_angle_ / 2 : 0;
     for (const int order : {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128}) {
         rules_.push_back(points_of(source, order));
-        if (order >= 1 + 4 * reach) break;
+        const double distance = texel_angle_ / (order == 1 ? 0.2 : (order - 1) / 4.0);
+        if (distance <= poles) break;
+        rules_.back().from2 = std::pow(margin + std::sqrt((distance - poles) * (distance + poles)), 2);
     }
 }
 
@@ -220,7 +224,7 @@ std::uint64_t NearField::add(std::span<const glm::dvec3> directions, std::span<d
                       {}};
     for (std::size_t n = 0; n < 4; ++n) kernel.polynomial[n] = static_cast<float>(split_.polynomial()[n]);
     const double sine_radius = sin_cos_pi(radius_ / kPi).sin;
-    std::vector<std::vector<float>> squares(rules_.size());
+    std::vector<std::vector<float>> squares(rules_.size() + 1);
     std::vector<glm::dvec3> turned;
     for (const glm::dvec3& direction : directions) turned.push_back(source_.world_to_source * direction);
     std::vector<glm::dvec2> points(turned.size());
@@ -229,8 +233,8 @@ std::uint64_t NearField::add(std::span<const glm::dvec3> directions, std::span<d
     for (std::size_t i = 0; i < turned.size(); ++i) {
         const glm::dvec3& n = turned[i];
         const double sine = std::sqrt(n.x * n.x + n.z * n.z), colatitude = points[i].y * kPi;
-        NearWindow window{rows_, source_.width, constant_, 0, 0, 0, 0, sine, n.y, 0,
-                          1,     texel_angle_,  4 * alpha2};
+        NearWindow window{rows_, source_.width, constant_, 0, 0, 0,
+                          0,     sine,          n.y,       0, 1, std::pow(radius_ + texel_angle_, 2)};
         if (sine > 0) window.x = n.x / sine, window.z = n.z / sine;
         const double rows_a_radian = source_.height / kPi;
         window.top = std::max(0, static_cast<int>((colatitude - radius_) * rows_a_radian));

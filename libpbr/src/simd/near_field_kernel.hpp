@@ -25,11 +25,11 @@ struct NearWindow {
     std::span<const float* const> rows;
     int width;
     std::array<float, 3> constant;
-    int top, bottom;             ///< rows [top, bottom)
-    int left, blocks;            ///< columns from left in [0, width) on, kNearLanes a block
-    double sine, cosine;         ///< of the direction's colatitude
-    double x, z;                 ///< and of its azimuth
-    double texel_angle, poles2;  ///< (2 alpha)^2
+    int top, bottom;      ///< rows [top, bottom)
+    int left, blocks;     ///< columns from left in [0, width) on, kNearLanes a block
+    double sine, cosine;  ///< of the direction's colatitude
+    double x, z;          ///< and of its azimuth
+    double beyond2;       ///< chord^2 beyond which texels don't count
 };
 
 }  // namespace pbr

@@ -34,6 +34,7 @@ class NearField {
     /// Of one rule: points within all rows, and within all columns twice over so that none wraps.
     struct Points {
         int order;
+        double from2;                                    ///< chord^2 from which it is good enough
         std::vector<double> row_sine, row_cosine;        ///< [row * order + i]
         std::vector<float> row_weight;                   ///< solid angle of a texel's share
         std::vector<double> column_sine, column_cosine;  ///< [i * 2 width + column]
