@@ -69,7 +69,7 @@ Results run_kernels() {
         .level(0.05, for_each_in_turn)
         .integrate(directions, results.harmonic);
     // The same numbers as an equirect, with an odd height and a texel apart.
-    const EquirectView equirect{cube.data(), 44, 35};
+    const EquirectView equirect{cube.data(), 48, 31};
     const std::vector<CubeTexel> apart{{0, 30, 20}};
     results.near.resize(150);
     results.bright.resize(150);

@@ -3,7 +3,7 @@
 //
 // Narrow lobes need high degrees for their cores alone: GGX's long tails are smooth. Within an angle R of the
 // axis the rest is the third-order Taylor polynomial of k at R, in 1 - mu; beyond, it is k itself. Its k_l
-// fall below e like l R = 9, 13, 21 for e = 1e-3, 1e-4, 1e-5, for any alpha.
+// fall below e like l R = 9, 13, 22 for e = 1e-3, 1e-4, 1e-5, for any alpha.
 
 #include <array>
 #include <vector>
