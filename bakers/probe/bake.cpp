@@ -27,6 +27,31 @@ Json level_properties(const ProbeParams& params, const Json& notes) {
     return levels;
 }
 
+/// Mistakes in a list of roughness.
+void check_roughness(const ProbeParams& params, std::vector<Mistake>& mistakes) {
+    constexpr double kLowest = 0.01;  // alpha 1e-4: narrower lobes are mirrors
+    const std::vector<double>& list = params.perceptual_roughness;
+    const std::string pointer = "/perceptual_roughness";
+    const int count = static_cast<int>(list.size()), full = full_chain(params.size);
+    if (count > 0 && params.levels > 0 && params.levels != count)
+        mistakes.push_back({"/levels", "found " + std::to_string(params.levels) +
+                                           ", and perceptual_roughness lists " + std::to_string(count) +
+                                           " levels; allowed: 0 or " + std::to_string(count)});
+    if (count > full)
+        mistakes.push_back({pointer, "found " + std::to_string(count) + " levels; allowed: at most " +
+                                         std::to_string(full) + " for size " + std::to_string(params.size)});
+    for (int l = 0; l < count; ++l) {
+        const double value = list[static_cast<std::size_t>(l)];
+        const double lowest = l == 0 ? 0 : std::max(kLowest, list[static_cast<std::size_t>(l) - 1]);
+        if (l == 0 ? value != 0 : value < lowest)
+            mistakes.push_back(
+                {pointer + "/" + std::to_string(l),
+                 "found " + Json(value).dump() + "; allowed: " +
+                     (l == 0 ? "0, for level 0 is the mirror"
+                             : Json(lowest).dump() + " to 1, no level smoother than the one before")});
+    }
+}
+
 }  // namespace
 
 std::vector<Mistake> check(const ProbeParams& params, const std::string& format) {
@@ -35,6 +60,7 @@ std::vector<Mistake> check(const ProbeParams& params, const std::string& format)
         mistakes.push_back(
             {"/format", "found \"" + format + "\", which holds no cube map; allowed: exr, ktx2, dds"});
     const int full = full_chain(params.size);
+    check_roughness(params, mistakes);
     if (params.levels > full)
         mistakes.push_back({"/levels", "found " + std::to_string(params.levels) + "; allowed: at most " +
                                            std::to_string(full) + " for size " +
@@ -82,7 +108,10 @@ Product bake(const ProbeParams& params, const Inputs& inputs, Context& context) 
     Product product;
     product.images.push_back(std::move(image));
     product.units = params.units == Units::automatic ? source.units : std::string(enum_name(params.units));
-    product.properties["level_mapping"] = "level = (levels - 1) * perceptual_roughness";
+    product.properties["level_mapping"] =
+        params.perceptual_roughness.empty()
+            ? "level = (levels - 1) * perceptual_roughness"
+            : "piecewise linear through the perceptual_roughness of the levels";
     product.properties["integrator"] = enum_name(method.integrator);
     if (!method.reason.empty()) product.properties["chosen_because"] = method.reason;
     product.properties["levels"] = level_properties(params, notes);

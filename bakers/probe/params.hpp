@@ -23,7 +23,8 @@ struct ProbeParams {
     Up up;
     bool mirror;
     int size;
-    int levels;  ///< 0 stands for "as many as leave 8 texels a side"
+    int levels;  ///< 0: as many as leave 8 texels a side, or as are listed here:
+    std::vector<double> perceptual_roughness;  ///< of each level; empty: evenly from 0 to 1
     Integrator integrator;
     std::vector<int> samples;  ///< one for all levels, or one a level; a single 0: as the accuracy asks
     double level_bias;
@@ -39,6 +40,7 @@ struct ProbeParams {
         visit("mirror", &ProbeParams::mirror);
         visit("size", &ProbeParams::size);
         visit("levels", &ProbeParams::levels);
+        visit("perceptual_roughness", &ProbeParams::perceptual_roughness);
         visit("integrator", &ProbeParams::integrator);
         visit("samples", &ProbeParams::samples);
         visit("level_bias", &ProbeParams::level_bias);

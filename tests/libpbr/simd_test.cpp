@@ -6,9 +6,12 @@
 #include <cmath>
 #include <vector>
 
+#include "pbr/ibl/bright_texels.hpp"
 #include "pbr/ibl/dfg.hpp"
+#include "pbr/ibl/harmonic_filter.hpp"
 #include "pbr/ibl/ld.hpp"
 #include "pbr/ibl/ld_harmonic.hpp"
+#include "pbr/ibl/near_field.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbr {
@@ -28,7 +31,7 @@ class OneTarget {
 };
 
 struct Results {
-    std::vector<double> dfg, exact;
+    std::vector<double> dfg, exact, near, bright, spectrum;
     std::vector<float> sampled, harmonic;
     bool operator==(const Results&) const = default;
 };
@@ -65,6 +68,18 @@ Results run_kernels() {
     LdHarmonic(CubeView{cube.data(), 16}, 0.05, 1e-3, for_each_in_turn)
         .level(0.05, for_each_in_turn)
         .integrate(directions, results.harmonic);
+    // The same numbers as an equirect, with an odd height and a texel apart.
+    const EquirectView equirect{cube.data(), 48, 31};
+    const std::vector<CubeTexel> apart{{0, 30, 20}};
+    results.near.resize(150);
+    results.bright.resize(150);
+    NearField(equirect, glm::dvec3(0.1), apart, SplitKernel(GgxZonalKernel(0.02), 0.2))
+        .add(directions, results.near);
+    BrightTexels(PatchBlocks(equirect, apart)).integrate(0.1, directions, results.bright);
+    const HarmonicSpectrum spectrum(equirect, 6, 1, for_each_in_turn, apart);
+    for (int m = 0; m <= 6; ++m)
+        results.spectrum.insert(results.spectrum.end(), spectrum.of_order(m).begin(),
+                                spectrum.of_order(m).end());
     return results;
 }
 
@@ -78,6 +93,9 @@ TEST(Simd, EveryVectorWidthGivesTheSameBits) {
         EXPECT_EQ(results.sampled, widest.sampled) << hwy::TargetName(target);
         EXPECT_EQ(results.exact, widest.exact) << hwy::TargetName(target);
         EXPECT_EQ(results.harmonic, widest.harmonic) << hwy::TargetName(target);
+        EXPECT_EQ(results.near, widest.near) << hwy::TargetName(target);
+        EXPECT_EQ(results.bright, widest.bright) << hwy::TargetName(target);
+        EXPECT_EQ(results.spectrum, widest.spectrum) << hwy::TargetName(target);
         ++compared;
     }
     EXPECT_GE(compared, 2);  // else no second width was there to compare

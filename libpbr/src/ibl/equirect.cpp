@@ -211,9 +211,13 @@ void resample_bilinear(const EquirectView& source, int size, int face, int y, st
         i %= source.width;
         return source.texel(i < 0 ? i + source.width : i, j);
     };
+    std::vector<glm::dvec3> directions;
+    for (int x = 0; x < size; ++x)
+        directions.push_back(source.world_to_source * cubemap_texel_direction({face, x, y}, size));
+    std::vector<glm::dvec2> points(directions.size());
+    equirect_points(directions, points);
     for (int x = 0; x < size; ++x) {
-        const glm::dvec2 uv =
-            equirect_point(source.world_to_source * cubemap_texel_direction({face, x, y}, size));
+        const glm::dvec2& uv = points[static_cast<std::size_t>(x)];
         const double px = uv.x * source.width - 0.5, py = uv.y * source.height - 0.5;
         const int i = static_cast<int>(std::floor(px)), j = static_cast<int>(std::floor(py));
         const double fx = px - i, fy = py - j;

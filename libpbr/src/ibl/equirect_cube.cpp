@@ -1,9 +1,10 @@
 // A whole cube map from an equirect, faster than texel by texel where the picture's axis is one of the
 // cube's.
 //
-// On a face beside the axis meridians are the lines a = const, a the coordinate across the axis, and dOmega =
-// da / (1 + a^2) dc with c the cosine of colatitude. So for a few a within each column of the picture one
-// walk along the line serves all texels of it: rows of the picture are passed once, not once a texel.
+// Quarter turns about the axis then take columns to columns, if their number is a multiple of four, and the
+// mirror image in the equator takes rows to rows. So all four faces beside the axis, north and south, share
+// the weights of one half of a face, and the quadrants of both faces that the axis pierces those of one
+// quadrant: weights are found once and used eight times.
 
 #include <algorithm>
 #include <array>
@@ -23,195 +24,302 @@ namespace pbr {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr int kImages = 8;  ///< copies that share their weights
 
-/// A face whose texels line up with meridians: direction = normal + a across + b up, in the picture's frame,
-/// up along its axis.
-struct SideFace {
-    glm::dvec3 normal, across;
-    bool across_is_s;
-    double b_sign;  ///< of the other coordinate against b
+/// Where the pattern of weights is used: texel (i, j) of the pattern is a texel of the cube, columns and rows
+/// of the picture are counted from `column` on and from the north or the south pole.
+struct Image {
+    int column;
+    bool south;
+    long origin, step_i, step_j;  ///< in the cube, texels
+};
+using Images = std::vector<Image>;
 
-    /// Nothing if the picture's axis isn't parallel to an edge of the face.
-    static std::optional<SideFace> of(const glm::dmat3& world_to_source, int face) {
-        const glm::dvec3 normal = world_to_source * cube_vector(face, 0, 0);
-        const glm::dvec3 s = world_to_source * cube_vector(face, 1, 0) - normal;
-        const glm::dvec3 t = world_to_source * cube_vector(face, 0, 1) - normal;
-        for (const bool across_is_s : {true, false}) {
-            const glm::dvec3 &across = across_is_s ? s : t, &along = across_is_s ? t : s;
-            if (std::abs(normal.y) < 1e-12 && std::abs(across.y) < 1e-12)
-                return SideFace{normal, across, across_is_s, along.y > 0 ? 1.0 : -1.0};
+/// How the cube's faces lie about the picture's axis.
+struct Faces {
+    Images beside, pierced;
+    double phase = 0;  ///< of a column's width, from its first edge to a face's middle
+
+    /// Nothing if the axis isn't one of the cube's, or quarter turns don't take columns to columns.
+    static std::optional<Faces> of(const EquirectView& source, int size);
+
+  private:
+    int column_of(const EquirectView& source, const glm::dvec3& direction) {
+        const double at = equirect_point(direction).x * source.width;
+        if (beside.empty() && pierced.empty()) phase = at - std::floor(at);
+        return static_cast<int>(std::lround(at - phase));
+    }
+    void add_beside(const EquirectView& source, int size, int face);
+    void add_pierced(const EquirectView& source, int size, int face);
+};
+
+struct FaceVectors {
+    glm::dvec3 normal, s, t;  ///< in the picture's frame
+};
+
+FaceVectors face_vectors(const EquirectView& source, int face) {
+    const glm::dvec3 normal = source.world_to_source * cube_vector(face, 0, 0);
+    return {normal, source.world_to_source * cube_vector(face, 1, 0) - normal,
+            source.world_to_source * cube_vector(face, 0, 1) - normal};
+}
+
+/// True if columns grow from p towards q, which is square to it: u falls with longitude.
+bool is_eastward(const glm::dvec3& p, const glm::dvec3& q) { return q.x * p.z - q.z * p.x < 0; }
+
+std::optional<Faces> Faces::of(const EquirectView& source, int size) {
+    constexpr int kFewestColumns = 64;  // the series of add_wedge are good for their width
+    const auto is_zero = [](double x) { return std::abs(x) < 1e-12; };
+    if (source.width % 4 != 0 || source.width < kFewestColumns) return std::nullopt;
+    Faces faces;
+    for (int face = 0; face < 6; ++face) {
+        const FaceVectors v = face_vectors(source, face);
+        if (is_zero(v.normal.x) && is_zero(v.normal.z))
+            faces.add_pierced(source, size, face);
+        else if (is_zero(v.normal.y) && (is_zero(v.s.y) || is_zero(v.t.y)))
+            faces.add_beside(source, size, face);
+        else
+            return std::nullopt;
+    }
+    return faces;
+}
+
+void Faces::add_beside(const EquirectView& source, int size, int face) {
+    const FaceVectors v = face_vectors(source, face);
+    const bool across_is_s = std::abs(v.s.y) < 1e-12;
+    const glm::dvec3 &across = across_is_s ? v.s : v.t, &up = across_is_s ? v.t : v.s;
+    const long of_i = across_is_s ? 1 : size, of_j = across_is_s ? size : 1;
+    const bool eastward = is_eastward(v.normal, across);
+    const int column = column_of(source, v.normal);
+    for (const bool south : {false, true}) {
+        const bool upward = (up.y > 0) != south;
+        const int first = upward ? size / 2 : size - 1 - size / 2;  // of j
+        beside.push_back({column, south,
+                          static_cast<long>(face) * size * size + first * of_j +
+                              (eastward ? 0 : static_cast<long>(size - 1) * of_i),
+                          eastward ? of_i : -of_i, upward ? of_j : -of_j});
+    }
+}
+
+void Faces::add_pierced(const EquirectView& source, int size, int face) {
+    const FaceVectors v = face_vectors(source, face);
+    struct Axis {
+        glm::dvec3 direction;
+        long x, y;  ///< in texels
+    };
+    std::array<Axis, 4> axes{Axis{v.s, 1, 0}, {v.t, 0, 1}, {-v.s, -1, 0}, {-v.t, 0, -1}};
+    if (!is_eastward(v.s, v.t)) std::swap(axes[1], axes[3]);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Axis &a = axes[k], &b = axes[(k + 1) % 4];
+        // Texel (0, 0) lies beside the middle towards both axes.
+        const long x = (size - 1 + a.x + b.x) / 2, y = (size - 1 + a.y + b.y) / 2;
+        pierced.push_back({column_of(source, a.direction), v.normal.y < 0,
+                           (static_cast<long>(face) * size + y) * size + x, a.y * size + a.x,
+                           b.y * size + b.x});
+    }
+}
+
+/// Sums over one texel of the pattern, in all its images.
+struct Sums {
+    double flux[kImages][3] = {}, area = 0;
+
+    /// Adds texels of a column of the picture, from `row` towards the equator.
+    void add(const EquirectView& source, const Images& images, int column, int row,
+             const std::vector<double>& weights) {
+        for (const double weight : weights) area += weight;
+        const long count = static_cast<long>(weights.size());
+        for (std::size_t image = 0; image < kImages; ++image) {
+            int x = images[image].column + column;
+            x = x < 0 ? x + source.width : x >= source.width ? x - source.width : x;
+            const bool south = images[image].south;
+            const float* rgb = source.texel(x, south ? source.height - 1 - row : row);
+            const long step = (south ? -3L : 3L) * source.width;
+            double *sum = flux[image], r = sum[0], g = sum[1], b = sum[2];
+            for (long k = 0; k < count; ++k, rgb += step) {
+                const double weight = weights[static_cast<std::size_t>(k)];
+                r += weight * static_cast<double>(rgb[0]);
+                g += weight * static_cast<double>(rgb[1]);
+                b += weight * static_cast<double>(rgb[2]);
+            }
+            sum[0] = r, sum[1] = g, sum[2] = b;
         }
-        return std::nullopt;
+    }
+
+    void write_means(const Images& images, int i, int j, std::span<float> rgb_out) const {
+        for (std::size_t image = 0; image < kImages; ++image) {
+            const Image& at = images[image];
+            const auto texel = static_cast<std::size_t>(at.origin + i * at.step_i + j * at.step_j);
+            for (std::size_t c = 0; c < 3; ++c)
+                rgb_out[texel * 3 + c] = static_cast<float>(flux[image][c] / area);
+        }
     }
 };
 
-/// One line of texels of a side face, those at the same place across.
-class MeridianLine {
-  public:
-    MeridianLine(const EquirectView& source, const SideFace& face, int size,
-                 const std::vector<double>& row_cosines)
-        : source_(source),
-          face_(face),
-          size_(size),
-          row_cosines_(row_cosines),
-          sums_(static_cast<std::size_t>(size) * 4) {}
+/// The picture, its rows, and the phase of its columns against the pattern's.
+struct Pattern {
+    const EquirectView& source;
+    const Images& images;
+    double phase;
+    int size;
+    const std::vector<double>& row_cosines;  ///< between rows, falling
 
-    /// Means of the texels from b = -1 to b = 1, RGB each.
-    std::vector<double> means(int index) {
-        const double from = 2.0 * index / size_ - 1, to = 2.0 * (index + 1) / size_ - 1;
-        // u falls with longitude, and longitude is monotone in a. Columns meet the piece from one end to the
-        // other.
-        const double u_from = u_of(from), turn = std::remainder(u_of(to) - u_from, 1.0);
-        const double first = u_from * source_.width, last = first + turn * source_.width;
-        const int step = turn > 0 ? 1 : -1;
-        double at = from;
-        for (int column = step > 0 ? static_cast<int>(std::floor(first))
-                                   : static_cast<int>(std::ceil(first)) - 1;
-             ; column += step) {
-            const double boundary = step > 0 ? column + 1 : column;
-            const bool ends = step > 0 ? boundary >= last : boundary <= last;
-            const double end = ends ? to : std::clamp(a_of(boundary / source_.width), at, to);
-            add_piece((column % source_.width + source_.width) % source_.width, at, end);
-            if (ends) break;
-            at = end;
+    /// The row whose span of cosines holds z.
+    int row_of(double z) const {
+        const auto below = std::lower_bound(row_cosines.begin(), row_cosines.end(), z, std::greater<>());
+        return std::clamp(static_cast<int>(below - row_cosines.begin()) - 1, 0, source.height - 1);
+    }
+};
+
+/// Half a face beside the axis: direction = normal + a across + b up, a eastward, b >= 0. Meridians are the
+/// lines a = const, and dOmega = da / (1 + a^2) dc with c the cosine of colatitude: for each of a few a
+/// within a column one walk along the meridian cuts it at rows and at texels.
+class BesideStrip {
+  public:
+    /// Texels [first, last) of the pattern's j.
+    BesideStrip(const Pattern& pattern, int first, int last)
+        : p_(pattern), first_(first), last_(last), sums_(static_cast<std::size_t>(last - first)) {}
+
+    void fill(std::span<float> rgb_out) {
+        for (int i = 0; i < p_.size; ++i) {
+            std::fill(sums_.begin(), sums_.end(), Sums());
+            add_line(2.0 * i / p_.size - 1, 2.0 * (i + 1) / p_.size - 1);
+            for (int j = first_; j < last_; ++j)
+                sums_[static_cast<std::size_t>(j - first_)].write_means(p_.images, i, j, rgb_out);
         }
-        std::vector<double> result;
-        for (int j = 0; j < size_; ++j)
-            for (std::size_t c = 0; c < 3; ++c) result.push_back(sums_[j * 4 + c] / sums_[j * 4 + 3]);
-        return result;
     }
 
   private:
-    double u_of(double a) const { return equirect_point(face_.normal + a * face_.across).x; }
-    double a_of(double u) const {
-        const glm::dvec3 d = equirect_direction(u, 0.5);
-        return (d.x * face_.across.x + d.z * face_.across.z) / (d.x * face_.normal.x + d.z * face_.normal.z);
+    /// A walk along one meridian, from texel to texel.
+    struct Walk {
+        double a2, weight;  ///< 1 + a^2, and what an interval of cosines counts
+        double low;         ///< cosine of colatitude
+        int row;            ///< that holds it
+    };
+
+    double boundary(int column) const {
+        const SinCos angle = sin_cos_pi(2 * (column - p_.phase) / p_.source.width);
+        return angle.sin / angle.cos;
+    }
+
+    /// b at the lower edge of texel j: texel 0 straddles the equator where the size is odd.
+    double edge(int j) const { return (2.0 * j - p_.size % 2) / p_.size; }
+
+    void add_line(double from, double to) {
+        int column =
+            static_cast<int>(std::floor(atan2_exact(from, 1) / (2 * kPi) * p_.source.width + p_.phase));
+        for (double at = from; at < to; ++column) {
+            const double end = std::clamp(boundary(column + 1), at, to);
+            if (end - at > 1e-15) add_piece(column, at, end);
+            at = end;
+        }
     }
 
     void add_piece(int column, double from, double to) {
-        if (to - from < 1e-15) return;
         static const QuadratureRule rule = gauss_legendre(2);
-        for (int i = 0; i < rule.size(); ++i) {
-            const double a = from + (to - from) * rule.nodes[i];
-            walk(column, a, rule.weights[i] * (to - from) / (1 + a * a));
+        std::array<Walk, 2> walks;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double a = from + (to - from) * rule.nodes[k], a2 = 1 + a * a, b = edge(first_);
+            const double low = b / std::sqrt(a2 + b * b);
+            walks[k] = {a2, rule.weights[k] * (to - from) / a2, low, p_.row_of(low)};
+        }
+        for (int j = first_; j < last_; ++j) {
+            const double b = edge(j + 1);
+            const int bottom = std::max(walks[0].row, walks[1].row);
+            weights_.clear();
+            for (Walk& walk : walks) step(walk, b / std::sqrt(walk.a2 + b * b), bottom);
+            std::reverse(weights_.begin(), weights_.end());
+            sums_[static_cast<std::size_t>(j - first_)].add(
+                p_.source, p_.images, column, bottom + 1 - static_cast<int>(weights_.size()), weights_);
         }
     }
 
-    /// Adds to all texels along the meridian at a.
-    void walk(int column, double a, double weight) {
-        const double a2 = 1 + a * a;
-        double low = -1 / std::sqrt(a2 + 1);  // cosine of colatitude at b = -1
-        int row = static_cast<int>(
-            std::lower_bound(row_cosines_.rbegin(), row_cosines_.rend(), low, std::less<>()) -
-            row_cosines_.rbegin());
-        row = std::clamp(source_.height - row, 0, source_.height - 1);
-        for (int j = 0; j < size_; ++j) {
-            const double b = 2.0 * (j + 1) / size_ - 1;
-            const double high = b / std::sqrt(a2 + b * b);
-            double* sum = &sums_[static_cast<std::size_t>(j) * 4];
-            for (;;) {
-                const double top = std::min(high, row_cosines_[static_cast<std::size_t>(row)]);
-                const double area = weight * (top - low);
-                const float* texel = source_.texel(column, row);
-                for (int c = 0; c < 3; ++c) sum[c] += area * static_cast<double>(texel[c]);
-                sum[3] += area;
-                low = top;
-                if (top >= high || row == 0) break;
-                --row;
-            }
+    /// Adds the weights of rows up to `high`, counted upwards from `bottom`.
+    void step(Walk& walk, double high, int bottom) {
+        for (;; --walk.row) {
+            const double top = std::min(high, p_.row_cosines[static_cast<std::size_t>(walk.row)]);
+            const auto place = static_cast<std::size_t>(bottom - walk.row);
+            if (weights_.size() <= place) weights_.resize(place + 1);
+            weights_[place] += walk.weight * (top - walk.low);
+            walk.low = top;
+            if (top >= high || walk.row == 0) break;
         }
     }
 
-    const EquirectView& source_;
-    const SideFace& face_;
-    int size_;
-    const std::vector<double>& row_cosines_;
-    std::vector<double> sums_;  ///< flux and area of each texel
+    const Pattern& p_;
+    int first_, last_;
+    std::vector<Sums> sums_;
+    std::vector<double> weights_;
 };
 
 double cross(const glm::dvec2& p, const glm::dvec2& q) { return p.x * q.y - p.y * q.x; }
 
-/// A face that the picture's axis pierces in the middle: direction = axis + a s + b t.
-class PolarFace {
+/// A quadrant of a face that the axis pierces in the middle: direction = axis + a e + b f, a and b >= 0, f to
+/// the east of e. Columns are wedges about the middle.
+class PiercedQuadrant {
   public:
-    /// Nothing if it is another face, or the picture's columns are wider than the wedges' series is good for.
-    static std::optional<PolarFace> of(const EquirectView& source, int face,
-                                       const std::vector<double>& row_cosines) {
-        constexpr int kFewestColumns = 64;
-        const glm::dvec3 normal = source.world_to_source * cube_vector(face, 0, 0);
-        if (std::abs(normal.x) > 1e-12 || std::abs(normal.z) > 1e-12 || source.width < kFewestColumns)
-            return std::nullopt;
-        return PolarFace(source, face, normal, row_cosines);
+    explicit PiercedQuadrant(const Pattern& pattern) : p_(pattern) {
+        for (int k = 0; k <= p_.source.width / 4 + 1; ++k) {
+            const SinCos angle = sin_cos_pi(2 * (k - p_.phase) / p_.source.width);
+            boundaries_.emplace_back(angle.cos, angle.sin);
+        }
     }
 
-    /// Mean of the texel [a0, a1] x [b0, b1], which the middle is outside of or a corner of.
-    void mean(double a0, double a1, double b0, double b1, float* rgb_out) const {
-        // Corners counter-clockwise about the middle, by the tangent of their angle to the texel's centre.
-        const glm::dvec2 centre((a0 + a1) / 2, (b0 + b1) / 2);
-        std::array<std::pair<double, glm::dvec2>, 4> corners;
-        int count = 0;
-        for (const glm::dvec2& corner : {glm::dvec2(a0, b0), {a1, b0}, {a0, b1}, {a1, b1}}) {
-            const double length = glm::length(corner);
-            if (length < 1e-12) continue;
-            const double tangent = cross(centre, corner) / glm::dot(centre, corner);
-            int place = count++;
-            for (; place > 0 && corners[place - 1].first > tangent; --place)
-                corners[place] = corners[place - 1];
-            corners[place] = {tangent, corner / length};
+    /// All texels of one j.
+    void fill_row(int j, std::span<float> rgb_out) const {
+        std::vector<double> weights;
+        for (int i = 0; i < p_.size / 2; ++i) {
+            Sums sums;
+            add_texel({edge(i), edge(i + 1), edge(j), edge(j + 1)}, sums, weights);
+            sums.write_means(p_.images, i, j, rgb_out);
         }
-        Sum sum;
-        glm::dvec2 at = corners[0].second;
-        int wedge = wedge_of(at);
-        for (int k = 1; k < count; ++k) {
-            const glm::dvec2& corner = corners[k].second;
-            for (; cross(boundaries_[wedge + 1], corner) > 0; wedge = (wedge + 1) % source_->width) {
-                add_wedge(wedge, at, boundaries_[wedge + 1], {a0, a1, b0, b1}, sum);
-                at = boundaries_[wedge + 1];
-            }
-            add_wedge(wedge, at, corner, {a0, a1, b0, b1}, sum);
-            at = corner;
-        }
-        for (int c = 0; c < 3; ++c) rgb_out[c] = static_cast<float>(sum.flux[c] / sum.area);
     }
 
   private:
-    struct Sum {
-        double flux[3] = {0, 0, 0}, area = 0;
-        int row = 0;  ///< where the last ray began
-    };
     struct Box {
         double a0, a1, b0, b1;
     };
 
-    PolarFace(const EquirectView& source, int face, const glm::dvec3& normal,
-              const std::vector<double>& row_cosines)
-        : source_(&source), row_cosines_(&row_cosines), south_(normal.y < 0) {
-        const glm::dvec3 s = source.world_to_source * cube_vector(face, 1, 0) - normal;
-        const glm::dvec3 t = source.world_to_source * cube_vector(face, 0, 1) - normal;
-        // Wedges go counter-clockwise in (s, t); the picture's columns do or don't.
-        for (int k = 0; k <= source.width; ++k) {
-            const glm::dvec3 d = equirect_direction(static_cast<double>(k) / source.width, 0.5);
-            boundaries_.push_back({glm::dot(d, s), glm::dot(d, t)});
+    double edge(int k) const { return 2.0 * k / p_.size; }
+
+    void add_texel(const Box& box, Sums& sums, std::vector<double>& weights) const {
+        // Corners by their angle about the middle; the one in the middle, if any, has none.
+        std::array<glm::dvec2, 4> corners{
+            glm::dvec2(box.a1, box.b0), {box.a0, box.b0}, {box.a1, box.b1}, {box.a0, box.b1}};
+        std::size_t count = 4;
+        if (box.a0 == 0 && box.b0 == 0) {
+            corners = {corners[0], corners[2], corners[3], {}};
+            count = 3;
+        } else if (cross(corners[1], corners[2]) < 0) {
+            std::swap(corners[1], corners[2]);
         }
-        clockwise_ = cross(boundaries_[0], boundaries_[1]) < 0;
-        if (clockwise_) std::reverse(boundaries_.begin(), boundaries_.end());
+        glm::dvec2 at = glm::normalize(corners[0]);
+        int wedge = wedge_of(at), row = p_.row_of(1 / std::sqrt(1 + box.a0 * box.a0 + box.b0 * box.b0));
+        for (std::size_t k = 1; k < count; ++k) {
+            const glm::dvec2 corner = glm::normalize(corners[k]);
+            for (; cross(boundary(wedge + 1), corner) > 0; ++wedge) {
+                add_wedge(wedge, at, boundary(wedge + 1), box, row, sums, weights);
+                at = boundary(wedge + 1);
+            }
+            add_wedge(wedge, at, corner, box, row, sums, weights);
+            at = corner;
+        }
     }
 
-    int column(int wedge) const { return clockwise_ ? source_->width - 1 - wedge : wedge; }
+    const glm::dvec2& boundary(int wedge) const { return boundaries_[static_cast<std::size_t>(wedge)]; }
 
+    /// The wedge that begins at or holds a direction.
     int wedge_of(const glm::dvec2& direction) const {
-        const glm::dvec2& zero = boundaries_[0];
-        const double turns = atan2_exact(cross(zero, direction), glm::dot(zero, direction)) / (2 * kPi);
-        int wedge = static_cast<int>((turns < 0 ? turns + 1 : turns) * source_->width);
-        wedge = std::clamp(wedge, 0, source_->width - 1);
+        const double turns = atan2_exact(direction.y, direction.x) / (2 * kPi);
+        const int last = static_cast<int>(boundaries_.size()) - 2;
+        int wedge = std::clamp(static_cast<int>(turns * p_.source.width + p_.phase), 0, last);
         // Rounding may have put a direction on a boundary to either side; the right one makes wedges
         // positive.
-        if (cross(boundaries_[wedge + 1], direction) >= 0) wedge = (wedge + 1) % source_->width;
+        if (wedge < last && cross(boundary(wedge + 1), direction) >= 0) ++wedge;
         return wedge;
     }
 
-    /// Adds what lies between unit vectors p and q, q counter-clockwise by a small angle.
-    void add_wedge(int wedge, const glm::dvec2& p, const glm::dvec2& q, const Box& box, Sum& sum) const {
+    /// Adds what lies between unit vectors p and q, q to the east of it by a small angle.
+    void add_wedge(int wedge, const glm::dvec2& p, const glm::dvec2& q, const Box& box, int& row, Sums& sums,
+                   std::vector<double>& weights) const {
         const double sine = cross(p, q);
         if (sine < 1e-15) return;
         const double sine2 = sine * sine, angle = sine * (1 + sine2 * (1.0 / 6 + sine2 * 3 / 40));
@@ -219,73 +327,75 @@ class PolarFace {
         constexpr double kNode = 0.28867513459481287;  // two-point Gauss: 1 / (2 sqrt(3)) either side
         const double x = angle * kNode, x2 = x * x;
         const double sin_x = x * (1 - x2 / 6), cos_x = 1 - x2 / 2 * (1 - x2 / 12);
-        for (const double side : {-1.0, 1.0})
-            add_ray(column(wedge), middle * cos_x + across * (side * sin_x), box, angle / 2, sum);
-    }
-
-    void add_ray(int column, const glm::dvec2& direction, const Box& box, double weight, Sum& sum) const {
-        const double ia = 1 / direction.x, ib = 1 / direction.y;
-        const double a_in = std::min(box.a0 * ia, box.a1 * ia), a_out = std::max(box.a0 * ia, box.a1 * ia);
-        const double b_in = std::min(box.b0 * ib, box.b1 * ib), b_out = std::max(box.b0 * ib, box.b1 * ib);
-        const double in = std::max({0.0, a_in, b_in}), out = std::min(a_out, b_out);
-        if (!(out > in)) return;
-        double high = 1 / std::sqrt(1 + in * in);  // cosine of the angle to the axis, falling along the ray
-        const double low = 1 / std::sqrt(1 + out * out);
-        const std::vector<double>& cosines = *row_cosines_;
-        int& row = sum.row;
-        while (row > 0 && cosines[static_cast<std::size_t>(row)] < high) --row;
-        while (cosines[static_cast<std::size_t>(row) + 1] >= high) ++row;
-        for (int r = row;; ++r) {
-            const double bottom = std::max(low, cosines[static_cast<std::size_t>(r) + 1]);
-            const double area = weight * (high - bottom);
-            const float* texel = source_->texel(column, south_ ? source_->height - 1 - r : r);
-            for (int c = 0; c < 3; ++c) sum.flux[c] += area * static_cast<double>(texel[c]);
-            sum.area += area;
-            high = bottom;
-            if (bottom <= low) break;
+        const Ray rays[2] = {ray(middle * cos_x - across * sin_x, box),
+                             ray(middle * cos_x + across * sin_x, box)};
+        const std::vector<double>& cosines = p_.row_cosines;
+        const double highest = std::max(rays[0].high, rays[1].high);
+        while (row > 0 && cosines[static_cast<std::size_t>(row)] < highest) --row;
+        while (row + 1 < p_.source.height && cosines[static_cast<std::size_t>(row) + 1] >= highest) ++row;
+        weights.clear();
+        const double lowest = std::min(rays[0].low, rays[1].low);
+        for (auto r = static_cast<std::size_t>(row); cosines[r] > lowest; ++r) {
+            double weight = 0;
+            for (const Ray& of : rays)
+                weight += std::max(0.0, std::min(of.high, cosines[r]) - std::max(of.low, cosines[r + 1]));
+            weights.push_back(weight * angle / 2);
         }
+        sums.add(p_.source, p_.images, wedge, row, weights);
     }
 
-    const EquirectView* source_;
-    const std::vector<double>* row_cosines_;
-    bool south_, clockwise_ = false;
-    std::vector<glm::dvec2> boundaries_;  ///< between wedges, unit vectors in (s, t)
+    /// The part of a meridian within a box, by cosines of colatitude.
+    struct Ray {
+        double low, high;
+    };
+    static Ray ray(const glm::dvec2& direction, const Box& box) {
+        const double ia = 1 / direction.x, ib = 1 / direction.y;
+        const double in = std::max(box.a0 * ia, box.b0 * ib), out = std::min(box.a1 * ia, box.b1 * ib);
+        const double high = 1 / std::sqrt(1 + in * in);
+        return {out > in ? 1 / std::sqrt(1 + out * out) : high, high};
+    }
+
+    const Pattern& p_;
+    std::vector<glm::dvec2> boundaries_;  ///< between wedges, unit vectors (a, b)
 };
+
+/// Rows that the patterns leave out: those of pierced faces whose middle lies in a texel.
+void fill_pierced_rows(const EquirectView& source, int size, const Images& pierced, const ForEach& each,
+                       std::span<float> rgb_out) {
+    const std::size_t stride = static_cast<std::size_t>(size) * 3;
+    each(2 * size, [&](int k) {
+        const long texels = static_cast<long>(size) * size;
+        const int face = static_cast<int>(pierced[k < size ? 0 : 4].origin / texels), y = k % size;
+        resample_area(source, size, face, y,
+                      rgb_out.subspan((static_cast<std::size_t>(face) * size + y) * stride, stride));
+    });
+}
 
 }  // namespace
 
 void resample_area(const EquirectView& source, int size, const ForEach& each, std::span<float> rgb_out) {
+    const std::size_t stride = static_cast<std::size_t>(size) * 3;
+    const std::optional<Faces> faces = Faces::of(source, size);
+    if (!faces)
+        return each(6 * size, [&](int row) {
+            resample_area(source, size, row / size, row % size,
+                          rgb_out.subspan(static_cast<std::size_t>(row) * stride, stride));
+        });
     std::vector<double> row_cosines;
     for (int r = 0; r <= source.height; ++r)
         row_cosines.push_back(sin_cos_pi(static_cast<double>(r) / source.height).cos);
-    std::array<std::optional<SideFace>, 6> sides;
-    std::array<std::optional<PolarFace>, 6> polar;
-    for (int face = 0; face < 6; ++face) {
-        sides[face] = SideFace::of(source.world_to_source, face);
-        polar[face] = PolarFace::of(source, face, row_cosines);
-    }
-    const std::size_t stride = static_cast<std::size_t>(size) * 3;
-    each(6 * size, [&](int i) {
-        const int face = i / size, line = i % size;
-        float* out = &rgb_out[static_cast<std::size_t>(face) * size * stride];
-        const std::optional<SideFace>& side = sides[face];
-        const bool holds_middle = 2 * line + 1 == size;  // in one of its texels
-        if (polar[face] && !holds_middle) {
-            const auto edge = [&](int k) { return 2.0 * k / size - 1; };
-            for (int x = 0; x < size; ++x)
-                polar[face]->mean(edge(x), edge(x + 1), edge(line), edge(line + 1),
-                                  out + line * stride + x * 3);
-            return;
-        }
-        if (!side) return resample_area(source, size, face, line, {out + line * stride, stride});
-        const std::vector<double> means = MeridianLine(source, *side, size, row_cosines).means(line);
-        for (int j = 0; j < size; ++j) {
-            const int along = side->b_sign > 0 ? j : size - 1 - j;
-            const int x = side->across_is_s ? line : along, y = side->across_is_s ? along : line;
-            for (std::size_t c = 0; c < 3; ++c)
-                out[y * stride + x * 3 + c] = static_cast<float>(means[j * 3 + c]);
-        }
+    // Strips are narrow so that the rows of the picture they read stay in the cache from column to column.
+    constexpr int kStrip = 8;
+    const int half = (size + 1) / 2, strips = (half + kStrip - 1) / kStrip;
+    const bool even = size % 2 == 0;
+    const Pattern beside{source, faces->beside, faces->phase, size, row_cosines};
+    const Pattern pierced{source, faces->pierced, faces->phase, size, row_cosines};
+    const PiercedQuadrant quadrant(pierced);
+    each(strips + (even ? half : 0), [&](int task) {
+        if (task >= strips) return quadrant.fill_row(task - strips, rgb_out);
+        BesideStrip(beside, task * kStrip, std::min(half, (task + 1) * kStrip)).fill(rgb_out);
     });
+    if (!even) fill_pierced_rows(source, size, faces->pierced, each, rgb_out);
 }
 
 }  // namespace pbr

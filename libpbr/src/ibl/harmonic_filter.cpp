@@ -9,10 +9,12 @@
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/fourier.hpp"
 #include "pbr/numerics/quadrature.hpp"
+#include "src/ibl/flux_grid.hpp"
 #include "src/ibl/lat_long_grid.hpp"
 #include "src/ibl/ring_modes.hpp"
-#include "src/ibl/spread_cube.hpp"
+#include "src/simd/lat_long_kernel.hpp"
 #include "src/simd/legendre_kernel.hpp"
+#include "src/simd/spread_kernel.hpp"
 
 namespace pbr {
 namespace {
@@ -33,14 +35,21 @@ std::span<const CubeTexel> in_row(std::span<const CubeTexel> texels, int face, i
 /// rest.
 glm::dvec3 row_sum(const float* row, int width, std::span<const CubeTexel> without) {
     glm::dvec3 sum(0);
-    for (int x = 0; x < width; ++x) {
-        if (!without.empty() && without.front().x == x) {
-            without = without.subspan(1);
-            continue;
-        }
-        for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(row[x * 3 + c]);
+    int from = 0;
+    const auto add_until = [&](int to) {
+        const std::array<double, 3> piece = row_light(row + 3L * from, to - from).sum;
+        sum += glm::dvec3(piece[0], piece[1], piece[2]);
+    };
+    for (const CubeTexel& texel : without) {
+        add_until(texel.x);
+        from = texel.x + 1;
     }
+    add_until(width);
     return sum;
+}
+
+std::array<float, 3> floats_of(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 /// The mean over the sphere. Transforms start from what a picture differs from it, so that a constant one has
@@ -67,6 +76,16 @@ glm::dvec3 mean_of(const CubeView& source, std::span<const CubeTexel> without) {
     return sum / (6.0 * source.size * source.size);
 }
 
+/// The integral of e^(i m phi) over a column about its middle, for orders 0 ... bands.
+std::vector<double> widths(int columns, int bands) {
+    std::vector<double> result;
+    for (int m = 0; m <= bands; ++m) {
+        const double half = static_cast<double>(m) / columns;
+        result.push_back(2 * kPi / columns * (m == 0 ? 1 : sin_cos_pi(half).sin / (kPi * half)));
+    }
+    return result;
+}
+
 /// Rings of a picture less its mean, with the integral over each constant texel: its sinc, from the first
 /// texel's centre on.
 RingSource rings_of(const EquirectView& source, const glm::dvec3& mean, int bands,
@@ -78,10 +97,10 @@ RingSource rings_of(const EquirectView& source, const glm::dvec3& mean, int band
             out[x * kElement] = static_cast<double>(texel[x * 3]) - mean[channel];
         for (const CubeTexel& black : in_row(without, 0, y)) out[black.x * kElement] = -mean[channel];
     };
+    const std::vector<double> integrals = widths(source.width, bands);
     for (int m = 0; m <= bands; ++m) {
-        const double half = static_cast<double>(m) / source.width;
-        const SinCos angle = sin_cos_pi(half);
-        const double scale = 2 * kPi / source.width * (m == 0 ? 1 : angle.sin / (kPi * half));
+        const SinCos angle = sin_cos_pi(static_cast<double>(m) / source.width);
+        const double scale = integrals[static_cast<std::size_t>(m)];
         rings.factors.emplace_back(scale * angle.cos, -scale * angle.sin);
     }
     return rings;
@@ -132,10 +151,17 @@ HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, int bands, int po
                                    const ForEach& each, std::span<const CubeTexel> without)
     : HarmonicSpectrum(bands, source.world_to_source) {
     assert(points_a_row >= 1);
-    const glm::dvec3 mean = mean_of(source, without, each);
-    RingModes modes = analyse_rings(rings_of(source, mean, bands, without), each);
-    const RowPoints points = row_points(source.height, points_a_row);
-    integrate(modes, points.colatitudes_rad, points.weights, points_a_row, each);
+    // Rounded to float: then what is left of a constant picture is 0 in both arithmetics.
+    const std::array<float, 3> constant = floats_of(mean_of(source, without, each));
+    const glm::dvec3 mean(constant[0], constant[1], constant[2]);
+    if (source.height > 3 * grid_rows(bands) / 2) {  // finer than such a field needs
+        const FluxGrid grid = spread_equirect(source, constant, bands, points_a_row, without, each);
+        integrate_grid(grid, widths(source.width, bands), each);
+    } else {
+        RingModes modes = analyse_rings(rings_of(source, mean, bands, without), each);
+        const RowPoints points = row_points(source.height, points_a_row);
+        integrate(modes, points.colatitudes_rad, points.weights, points_a_row, each);
+    }
     add_constant(mean);
 }
 
@@ -144,10 +170,8 @@ HarmonicSpectrum::HarmonicSpectrum(const CubeView& source, int bands, int points
     : HarmonicSpectrum(bands, glm::dmat3(1)) {
     assert(points_a_side >= 1);
     const glm::dvec3 mean = mean_of(source, without);
-    const SpreadCube grid(source, mean, bands, points_a_side, without, each);
-    RingModes modes = analyse_rings(grid.rings(bands), each);
-    integrate(modes, grid.colatitudes_rad(), std::vector<double>(grid.colatitudes_rad().size(), 1.0), 1,
-              each);
+    const FluxGrid grid = spread_cube(source, mean, bands, points_a_side, without, each);
+    integrate_grid(grid, std::vector<double>(static_cast<std::size_t>(bands) + 1, 1.0), each);
     add_constant(mean);
 }
 
@@ -179,6 +203,13 @@ void HarmonicSpectrum::integrate(RingModes& modes, const std::vector<double>& co
                          &values[static_cast<std::size_t>(kParts) * rings.padded()],
                          &coefficients_[start(m)]);
     });
+}
+
+void HarmonicSpectrum::integrate_grid(const FluxGrid& grid, const std::vector<double>& factors,
+                                      const ForEach& each) {
+    RingModes modes = analyse_rings(grid.rings({factors.begin(), factors.end()}), each);
+    const std::vector<double> colatitudes_rad = grid.colatitudes_rad();
+    integrate(modes, colatitudes_rad, std::vector<double>(colatitudes_rad.size(), 1.0), 1, each);
 }
 
 std::size_t HarmonicSpectrum::start(int order) const {
@@ -255,22 +286,13 @@ void HarmonicGrid::fill_border() {
         }
 }
 
-std::array<float, 3> HarmonicGrid::sample(const glm::dvec3& direction) const {
-    const glm::dvec2 point = equirect_point(world_to_source_ * direction);
-    const double px = point.x * columns_, py = point.y * rows_ - 0.5;
-    const int x = std::min(static_cast<int>(px), columns_ - 1), y = static_cast<int>(std::floor(py));
-    const std::array<double, 6> wide_x = lagrange_weights(px - x), wide_y = lagrange_weights(py - y);
-    float wx[6], wy[6];
-    for (int i = 0; i < 6; ++i) wx[i] = static_cast<float>(wide_x[i]), wy[i] = static_cast<float>(wide_y[i]);
-    float sum[4] = {0, 0, 0, 0};
-    for (int j = 0; j < 6; ++j) {
-        const float* p = &texels_[((y - 2 + j + kBorder) * stride_ + x - 2 + kBorder) * 4];
-        float row[4] = {0, 0, 0, 0};
-        for (int i = 0; i < 6; ++i)
-            for (int c = 0; c < 4; ++c) row[c] += wx[i] * p[i * 4 + c];
-        for (int c = 0; c < 4; ++c) sum[c] += wy[j] * row[c];
-    }
-    return {sum[0], sum[1], sum[2]};
+void HarmonicGrid::sample(std::span<const glm::dvec3> directions, std::span<float> rgb_out) const {
+    const LatLongTexels grid{&texels_[(kBorder * stride_ + kBorder) * 4], stride_, rows_, columns_};
+    std::vector<glm::dvec3> turned(directions.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) turned[i] = world_to_source_ * directions[i];
+    std::vector<glm::dvec2> points(directions.size());
+    equirect_points(turned, points);
+    interpolate(grid, points, rgb_out);
 }
 
 }  // namespace pbr

@@ -7,10 +7,10 @@
 
 namespace pbr {
 
-/// Rows for a field of degrees up to `bands`: three a degree while that is cheap, so that interpolation errs
-/// by less than rounding to float where filtered fields hold something, and 1.25 at least.
+/// Rows for a field of degrees up to `bands`: two a degree while that is cheap, so that interpolation errs by
+/// less than 3e-5 where filtered fields hold something, and 1.25 at least.
 inline int grid_rows(int bands) {
-    const int rows = std::max(8, 5 * (bands + 2) / 4 + std::min(7 * bands / 4, 400));
+    const int rows = std::max(8, 5 * (bands + 2) / 4 + std::min(3 * bands / 4, 400));
     return rows + rows % 2;
 }
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
-#include "pbr/ibl/ld.hpp"
+#include "pbr/ibl/split_kernel.hpp"
 #include "pbr/ibl/zonal_harmonics.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
 #include "pbr/numerics/elementary.hpp"
+#include "src/simd/spread_kernel.hpp"
 
 namespace pbr {
 namespace {
@@ -47,19 +49,19 @@ std::vector<double> solid_angles(const CubeView& source, int row) {
     return result;
 }
 
-struct RowLight {
-    std::array<double, 3> flux{};
-    std::array<float, 3> largest{};
-};
-
-template <class View>
-RowLight light_of_row(const View& source, int row) {
+/// Flux of a row's channels, and their largest values.
+RowLight light_of_row(const EquirectView& source, int row) {
+    RowLight light = row_light(source.texel(0, row), source.width);
+    for (double& sum : light.sum) sum *= equirect_texel_solid_angle(source.width, source.height, row);
+    return light;
+}
+RowLight light_of_row(const CubeView& source, int row) {
     RowLight light;
     const std::vector<double> weights = solid_angles(source, row);
     const float* rgb = rgb_of(source, texel_of(source, row, 0));
     for (const double solid_angle : weights)
         for (std::size_t c = 0; c < 3; ++c, ++rgb) {
-            light.flux[c] += solid_angle * static_cast<double>(*rgb);
+            light.sum[c] += solid_angle * static_cast<double>(*rgb);
             light.largest[c] = std::max(light.largest[c], *rgb);
         }
     return light;
@@ -73,7 +75,7 @@ std::vector<CubeTexel> find_bright_texels(const View& source, const ForEach& eac
          [&](int row) { rows[static_cast<std::size_t>(row)] = light_of_row(source, row); });
     std::array<double, 3> flux{};
     for (const RowLight& row : rows)
-        for (std::size_t c = 0; c < 3; ++c) flux[c] += row.flux[c];
+        for (std::size_t c = 0; c < 3; ++c) flux[c] += row.sum[c];
     std::vector<CubeTexel> bright;
     for (int row = 0; row < row_count(source); ++row) {
         const auto exceeds_mean = [&](std::size_t c, double value) {
@@ -102,23 +104,30 @@ std::vector<CubeTexel> find_bright_texels(const View& source, const ForEach& eac
 LdHarmonic::LdHarmonic(const EquirectView& source, double smallest_alpha, double max_error,
                        const ForEach& each)
     : max_error_(max_error), bright_(find_bright_texels(source, each)) {
-    prepare(source, source.height, smallest_alpha, each);
+    constexpr int kMostBands = 600;
+    equirect_ = source;
+    prepare(source, source.height, smallest_alpha, kMostBands, each);
 }
 
 LdHarmonic::LdHarmonic(const CubeView& source, double smallest_alpha, double max_error, const ForEach& each)
     : max_error_(max_error), bright_(find_bright_texels(source, each)) {
-    prepare(source, 2 * source.size, smallest_alpha,
-            each);  // texels are pi / (2 size) high at the middle of a face
+    // Texels are pi / (2 size) high at the middle of a face.
+    prepare(source, 2 * source.size, smallest_alpha, std::numeric_limits<int>::max(), each);
 }
 
 template <class View>
-void LdHarmonic::prepare(const View& source, int rows, double smallest_alpha, const ForEach& each) {
+void LdHarmonic::prepare(const View& source, int rows, double smallest_alpha, int most_bands,
+                         const ForEach& each) {
     assert(smallest_alpha > 0 && smallest_alpha <= 1 && max_error_ > 0);
-    if (!bright_.empty()) bright_blocks_.emplace(source, bright_);
-    spectrum_.emplace(source, bands_for(smallest_alpha, max_error_),
-                      points_a_row(rows, smallest_alpha, max_error_), each, bright_);
+    if (!bright_.empty()) bright_texels_.emplace(PatchBlocks(source, bright_));
+    const int wanted = bands_for(smallest_alpha, max_error_), bands = std::min(wanted, most_bands);
+    const double narrowest = smallest_alpha * wanted / bands;  // of the lobes left to harmonics
+    spectrum_.emplace(source, bands, points_a_row(rows, narrowest, max_error_), each, bright_);
+}
+
+glm::dvec3 LdHarmonic::mean() const {
     const std::span<const double, 6> average = spectrum_->coefficient(0, 0);
-    mean_ = (average[0] + average[2] + average[4]) / 3 / std::sqrt(4 * std::numbers::pi);
+    return glm::dvec3(average[0], average[2], average[4]) / std::sqrt(4 * std::numbers::pi);
 }
 
 int LdHarmonic::bands_for(double alpha, double max_error) {
@@ -129,15 +138,28 @@ int LdHarmonic::bands_for(double alpha, double max_error) {
 }
 
 LdHarmonic::Level::Level(const LdHarmonic& of, double alpha, const ForEach& each)
-    : alpha_(alpha), bright_(of.bright_blocks_ ? &*of.bright_blocks_ : nullptr) {
-    const std::vector<double> kernel = zonal_ggx(GgxZonalKernel(alpha), of.bands() + 1);
+    : alpha_(alpha), bright_(of.bright_texels_ ? &*of.bright_texels_ : nullptr) {
+    const GgxZonalKernel lobe(alpha);
+    std::vector<double> kernel;
+    if (bands_for(alpha, of.max_error_) <= of.bands() || !of.equirect_.rgb) {
+        kernel = zonal_ggx(lobe, of.bands() + 1);
+    } else {
+        const SplitKernel split(lobe, SplitKernel::radius_for(of.bands(), of.max_error_));
+        kernel = zonal_far(split, of.bands() + 1);
+        // Rounded, so that the near part of a constant picture is nothing but what is added here.
+        const glm::dvec3 constant(glm::vec3(of.mean()));
+        near_constant_ = constant * (1 - kernel[0]);
+        near_.emplace(of.equirect_, constant, of.bright_, split);
+    }
     bands_ = band_limit(of, kernel);
     grid_.emplace(*of.spectrum_, std::span(kernel).first(static_cast<std::size_t>(bands_) + 1), each);
 }
 
 int LdHarmonic::Level::band_limit(const LdHarmonic& of, std::span<const double> kernel) {
-    if (!(of.mean_ > 0)) return 0;
-    const double scale = 12 * std::numbers::pi * of.mean_ * of.mean_;  // sphere times channels
+    const glm::dvec3 channels = of.mean();
+    const double mean = (channels.x + channels.y + channels.z) / 3;
+    if (!(mean > 0)) return 0;
+    const double scale = 12 * std::numbers::pi * mean * mean;  // sphere times channels
     const double allowed = 0.01 * of.max_error_ * of.max_error_ * scale;
     double lost = 0;
     int bands = of.bands();
@@ -154,18 +176,15 @@ int LdHarmonic::Level::band_limit(const LdHarmonic& of, std::span<const double> 
 std::uint64_t LdHarmonic::Level::integrate(std::span<const glm::dvec3> directions,
                                            std::span<float> rgb_out) const {
     std::uint64_t evaluations = 0;
-    std::vector<double> bright;
-    if (bright_) {
-        bright.resize(directions.size() * 3);
-        ld_partial(*bright_, alpha_, directions, bright, evaluations);
+    std::vector<double> apart(directions.size() * 3);
+    if (bright_) evaluations += bright_->integrate(alpha_, directions, apart);
+    if (near_) {
+        for (std::size_t i = 0; i < apart.size(); ++i) apart[i] += near_constant_[static_cast<int>(i % 3)];
+        evaluations += near_->add(directions, apart);
     }
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-        const std::array<float, 3> soft = grid_->sample(directions[i]);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double apart = bright_ ? bright[i * 3 + c] : 0;
-            rgb_out[i * 3 + c] = std::max(0.0f, static_cast<float>(static_cast<double>(soft[c]) + apart));
-        }
-    }
+    grid_->sample(directions, rgb_out);
+    for (std::size_t i = 0; i < rgb_out.size(); ++i)
+        rgb_out[i] = std::max(0.0f, static_cast<float>(static_cast<double>(rgb_out[i]) + apart[i]));
     return evaluations;
 }
 

@@ -1,10 +1,9 @@
-#include "src/ibl/spread_cube.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <glm/geometric.hpp>
 
 #include "pbr/numerics/quadrature.hpp"
+#include "src/ibl/flux_grid.hpp"
 #include "src/ibl/lat_long_grid.hpp"
 
 namespace pbr {
@@ -26,18 +25,23 @@ void add_points(const CubeView& source, const glm::dvec3& constant, int face, in
                                                   [](const CubeTexel& p, const CubeTexel& q) {
                                                       return std::pair(p.face, p.y) < std::pair(q.face, q.y);
                                                   });
+    std::vector<glm::dvec3> directions;
+    for (int x = 0; x < source.size; ++x)
+        for (int j = 0; j < rule.size(); ++j)
+            for (int i = 0; i < rule.size(); ++i)
+                directions.push_back(cube_vector(face, 2 * (x + rule.nodes[i]) / source.size - 1,
+                                                 2 * (y + rule.nodes[j]) / source.size - 1));
+    std::vector<glm::dvec2> at(directions.size());
+    equirect_points(directions, at);
     for (int x = 0; x < source.size; ++x) {
         const bool black = std::any_of(left_out, end, [x](const CubeTexel& texel) { return texel.x == x; });
         const std::size_t first = points.size();
         double sum = 0;
         for (int j = 0; j < rule.size(); ++j)
             for (int i = 0; i < rule.size(); ++i) {
-                const double s = 2 * (x + rule.nodes[i]) / source.size - 1,
-                             t = 2 * (y + rule.nodes[j]) / source.size - 1;
-                const double length2 = 1 + s * s + t * t,
+                const double length2 = glm::dot(directions[points.size()], directions[points.size()]),
                              weight = rule.weights[i] * rule.weights[j] / (length2 * std::sqrt(length2));
-                const glm::dvec2 at = equirect_point(cube_vector(face, s, t));
-                const double column = at.x * columns, row = at.y * rows - 0.5;
+                const double column = at[points.size()].x * columns, row = at[points.size()].y * rows - 0.5;
                 const double left = std::floor(column), top = std::floor(row);
                 points.push_back({static_cast<float>(column - left),
                                   static_cast<float>(row - top),
@@ -58,36 +62,34 @@ void add_points(const CubeView& source, const glm::dvec3& constant, int face, in
 
 }  // namespace
 
-SpreadCube::SpreadCube(const CubeView& source, const glm::dvec3& constant, int bands, int points_a_side,
-                       std::span<const CubeTexel> without, const ForEach& each)
-    : rows_(grid_rows(bands)),
-      columns_(2 * fast_fourier_size(rows_)),
-      flux_(static_cast<std::size_t>(rows_) * columns_ * 3) {
-    for (int y = 0; y < rows_ / 2; ++y) colatitudes_rad_.push_back((y + 0.5) / rows_ * std::numbers::pi);
+FluxGrid spread_cube(const CubeView& source, const glm::dvec3& constant, int bands, int points_a_side,
+                     std::span<const CubeTexel> without, const ForEach& each) {
+    FluxGrid grid(bands);
+    const int rows = grid.rows(), columns = grid.columns();
     const QuadratureRule rule = gauss_legendre(points_a_side);
     std::vector<std::vector<Point>> of_row(static_cast<std::size_t>(6) * source.size);
     each(6 * source.size, [&](int i) {
-        add_points(source, constant, i / source.size, i % source.size, rule, columns_, rows_, without,
+        add_points(source, constant, i / source.size, i % source.size, rule, columns, rows, without,
                    of_row[static_cast<std::size_t>(i)]);
     });
     // By grid rows, in the order of the texels, so that sums don't depend on who computes them.
-    std::vector<std::vector<const Point*>> near(static_cast<std::size_t>(rows_) + 1);
+    std::vector<std::vector<const Point*>> near(static_cast<std::size_t>(rows) + 1);
     for (const std::vector<Point>& row : of_row)
         for (const Point& point : row) near[static_cast<std::size_t>(point.y + 1)].push_back(&point);
-    each(rows_, [&](int target) {
+    each(rows, [&](int target) {
         // A point's six rows lie from two above it on; over a pole rows go on with the azimuth turned by pi.
         const auto take = [&](int virtual_row) {
-            const bool across = virtual_row < 0 || virtual_row >= rows_;
+            const bool across = virtual_row < 0 || virtual_row >= rows;
             for (int offset = -2; offset <= 3; ++offset) {
                 const int y = virtual_row - offset;
-                if (y < -1 || y >= rows_) continue;
+                if (y < -1 || y >= rows) continue;
                 for (const Point* point : near[static_cast<std::size_t>(y + 1)]) {
                     const double weight = lagrange_weights(
                         static_cast<double>(point->row))[static_cast<std::size_t>(offset + 2)];
                     const std::array<double, 6> wx = lagrange_weights(static_cast<double>(point->column));
                     for (int k = 0; k < 6; ++k) {
-                        const int x = (point->x - 2 + k + columns_ + (across ? columns_ / 2 : 0)) % columns_;
-                        double* rgb = &flux_[(static_cast<std::size_t>(target) * columns_ + x) * 3];
+                        const int x = (point->x - 2 + k + columns + (across ? columns / 2 : 0)) % columns;
+                        double* rgb = grid.rgb(x, target);
                         for (int c = 0; c < 3; ++c)
                             rgb[c] += weight * wx[static_cast<std::size_t>(k)] * point->rgb[c];
                     }
@@ -96,18 +98,9 @@ SpreadCube::SpreadCube(const CubeView& source, const glm::dvec3& constant, int b
         };
         take(target);
         if (target < 3) take(-1 - target);
-        if (target >= rows_ - 3) take(2 * rows_ - 1 - target);
+        if (target >= rows - 3) take(2 * rows - 1 - target);
     });
-}
-
-RingSource SpreadCube::rings(int bands) const {
-    RingSource rings{
-        columns_, rows_, {}, std::vector<std::complex<double>>(static_cast<std::size_t>(bands) + 1, 1.0)};
-    rings.read = [this](int y, int channel, double* out) {
-        const double* flux = &flux_[static_cast<std::size_t>(y) * columns_ * 3] + channel;
-        for (int x = 0; x < columns_; ++x) out[x * 2 * kFourierLanes] = flux[x * 3];
-    };
-    return rings;
+    return grid;
 }
 
 }  // namespace pbr

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "pbr/ibl/spherical_harmonics.hpp"
+#include "pbr/ibl/split_kernel.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/legendre.hpp"
@@ -25,7 +26,12 @@ double zonal_cosine(int l) {
     return 2 * kPi * sign * binomial / ((l + 2.0) * (l - 1.0));
 }
 
-std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands) {
+namespace {
+
+/// k_0 ... of a kernel of 1 - mu that is 0 below the horizon, as wide as `width_of_core` at its core and
+/// smooth but at one angle.
+template <class Kernel>
+std::vector<double> funk_hecke(const Kernel& kernel, double width_of_core, double break_rad, int bands) {
     assert(bands >= 1);
     // Panels of the polar angle as wide as what happens there: the core's own width, half the distance beyond
     // it, and a wave of the highest band everywhere. Sixteen points leave rounding alone.
@@ -33,18 +39,18 @@ std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands) {
     const double wave = 2 * std::numbers::pi / bands;
     std::vector<double> mu, weight;
     for (double from = 0; from < std::numbers::pi / 2;) {
-        const double rest = std::numbers::pi / 2 - from;
-        const double width = std::min(std::max(kernel.alpha(), from / 2), wave);
+        const double end = from < break_rad * (1 - 1e-12) ? break_rad : std::numbers::pi / 2;
+        const double rest = end - from, width = std::min(std::max(width_of_core, from / 2), wave);
         const bool last = rest < width * (1 + 1e-9);
         for (int i = 0; i < rule.size(); ++i) {
             const double turns = (from + (last ? rest : width) * rule.nodes[i]) / std::numbers::pi;
             const SinCos half = sin_cos_pi(turns / 2), whole = sin_cos_pi(turns);
             mu.push_back(whole.cos);
             weight.push_back(rule.weights[i] * (last ? rest : width) * 2 * std::numbers::pi * whole.sin *
-                             kernel.value(2 * half.sin * half.sin));
+                             kernel(2 * half.sin * half.sin));
         }
-        if (last) break;
-        from += width;
+        if (last && end > break_rad) break;
+        from = last ? end : from + width;
     }
     // Bonnet's recurrence, all angles together.
     std::vector<double> before(mu.size(), 0.0), now(mu.size(), 1.0), coefficients;
@@ -59,6 +65,19 @@ std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands) {
         coefficients.push_back(sum);
     }
     return coefficients;
+}
+
+}  // namespace
+
+std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands) {
+    return funk_hecke([&](double x) { return kernel.value(x); }, kernel.alpha(), 0, bands);
+}
+
+std::vector<double> zonal_far(const SplitKernel& split, int bands) {
+    const double cosine = 1 - split.limit(), sine = std::sqrt(split.limit() * (1 + cosine));
+    const double radius = atan2_exact(sine, cosine);
+    return funk_hecke([&](double x) { return split.far(x); }, std::max(split.kernel().alpha(), radius / 4),
+                      radius, bands);
 }
 
 namespace {

@@ -105,6 +105,32 @@ HWY_INLINE V asinh(D d, V x) {
     return hn::IfThenElse(hn::Lt(x, hn::Set(d, 1e-2)), series, direct);
 }
 
+/// Angle of (x, y) in (-pi, pi], 0 where both are 0; y = -0 counts as 0. Absolute error below 1e-15. The
+/// angle in the first octant is taken to the nearest of 0, pi/8 and pi/4; what is left has a tangent of at
+/// most .199, and the first term left out of its series is below 1e-18.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V atan2(D d, V y, V x) {
+    constexpr double kSeries[] = {1,       -1. / 3,  1. / 5,  -1. / 7,  1. / 9,  -1. / 11,
+                                  1. / 13, -1. / 15, 1. / 17, -1. / 19, 1. / 21, -1. / 23};
+    constexpr double kPi = std::numbers::pi, kCos = 0.92387953251128674, kSin = 0.38268343236508977;
+    const auto set = [&](double value) HWY_ATTR { return hn::Set(d, value); };
+    const V ay = hn::Abs(y), ax = hn::Abs(x), larger = hn::Max(ax, ay), smaller = hn::Min(ax, ay);
+    const auto past_first = hn::Gt(smaller, hn::Mul(larger, set(0.19891236737965801)));   // tan(pi/16)
+    const auto past_second = hn::Gt(smaller, hn::Mul(larger, set(0.66817863791929892)));  // tan(3 pi/16)
+    const auto of_three = [&](double a, double b, double c) HWY_ATTR {
+        return hn::IfThenElse(past_second, set(c), hn::IfThenElse(past_first, set(b), set(a)));
+    };
+    const V cosine = of_three(1, kCos, std::numbers::sqrt2 / 2);
+    const V sine = of_three(0, kSin, std::numbers::sqrt2 / 2);
+    const V across = hn::Sub(hn::Mul(smaller, cosine), hn::Mul(larger, sine));
+    const V along = hn::Add(hn::Mul(larger, cosine), hn::Mul(smaller, sine));
+    const V t = hn::Div(across, hn::IfThenElse(hn::Gt(larger, hn::Zero(d)), along, set(1)));
+    V angle = hn::Add(of_three(0, kPi / 8, kPi / 4), hn::Mul(t, polynomial(d, hn::Mul(t, t), kSeries)));
+    angle = hn::IfThenElse(hn::Gt(ay, ax), hn::Sub(set(kPi / 2), angle), angle);
+    angle = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(set(kPi), angle), angle);
+    return hn::IfThenElse(hn::Lt(y, hn::Zero(d)), hn::Neg(angle), angle);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pbr
 HWY_AFTER_NAMESPACE();

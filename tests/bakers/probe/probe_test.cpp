@@ -94,6 +94,53 @@ TEST(ProbeBaker, LevelsHaveTheSizesAndRoughnessOfTheLinearMapping) {
     EXPECT_EQ(size_of_level(params, 5), 8);
 }
 
+TEST(ProbeBaker, ALevelHoldsTheRoughnessListedForIt) {
+    ProbeParams params = defaults();
+    params.levels = 0;
+    params.perceptual_roughness = {0, 0.3, 0.3, 1};
+    EXPECT_TRUE(check(params, "ktx2").empty());
+    for (const Integrator integrator : {Integrator::harmonic, Integrator::fis, Integrator::reference}) {
+        params.integrator = integrator;
+        const Product listed = bake_probe(params, equirect(32, axes_picture));
+        ASSERT_EQ(listed.images[0].levels.size(), 4u);
+        EXPECT_EQ(listed.properties["levels"][1]["perceptual_roughness"], 0.3);
+        EXPECT_DOUBLE_EQ(listed.properties["levels"][2]["alpha"].get<double>(), 0.09);
+        EXPECT_EQ(listed.properties["level_mapping"],
+                  "piecewise linear through the perceptual_roughness of the levels");
+        // The same lobe at half the size: 2 x 2 texels of level 1 have the mean of one of level 2.
+        const float* fine = listed.images[0].texel(1, 0, 8, 8);
+        const float* coarse = listed.images[0].texel(2, 0, 4, 4);
+        EXPECT_NEAR(fine[0], coarse[0], 0.1);
+        params.perceptual_roughness = {};
+        params.levels = 4;
+        const Product even = bake_probe(params, equirect(32, axes_picture));
+        EXPECT_EQ(listed.images[0].levels[3].texels, even.images[0].levels[3].texels);
+        params.perceptual_roughness = {0, 0.3, 0.3, 1};
+        params.levels = 0;
+    }
+}
+
+TEST(ProbeBaker, RefusesRoughnessThatFallsOrStartsRough) {
+    const auto mistake = [](int levels, std::vector<double> list) {
+        ProbeParams params = defaults();
+        params.levels = levels;
+        params.perceptual_roughness = std::move(list);
+        const std::vector<Mistake> mistakes = check(params, "ktx2");
+        return mistakes.empty() ? std::string() : mistakes[0].pointer + " " + mistakes[0].message;
+    };
+    EXPECT_EQ(mistake(3, {0, 0.5, 1}), "");
+    EXPECT_EQ(mistake(0, {0.1, 0.5}),
+              "/perceptual_roughness/0 found 0.1; allowed: 0, for level 0 is the mirror");
+    EXPECT_EQ(mistake(0, {0, 0.5, 0.4}),
+              "/perceptual_roughness/2 found 0.4; allowed: 0.5 to 1, no level smoother than the one before");
+    EXPECT_EQ(mistake(0, {0, 0}),
+              "/perceptual_roughness/1 found 0.0; allowed: 0.01 to 1, no level smoother than the one before");
+    EXPECT_EQ(mistake(4, {0, 0.5}),
+              "/levels found 4, and perceptual_roughness lists 2 levels; allowed: 0 or 2");
+    EXPECT_EQ(mistake(0, {0, 0.1, 0.2, 0.3, 0.4, 0.5, 1}),
+              "/perceptual_roughness found 7 levels; allowed: at most 6 for size 32");
+}
+
 TEST(ProbeBaker, OrientationFollowsTheDocumentedFrame) {
     ProbeParams params = defaults();
     params.levels = 1;

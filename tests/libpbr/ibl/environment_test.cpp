@@ -96,6 +96,27 @@ TEST(Equirect, AreaResamplingAgreesWithBruteForceSubdivision) {
     }
 }
 
+TEST(Equirect, ManyPointsAtOnceAreThoseOneByOne) {
+    std::vector<glm::dvec3> directions;
+    for (int x = -2; x <= 2; ++x)  // axes, diagonals and the origin's neighbours in all octants
+        for (int y = -2; y <= 2; ++y)
+            for (int z = -2; z <= 2; ++z)
+                if (x != 0 || y != 0 || z != 0) directions.emplace_back(x, y, z);
+    for (int i = 0; i < 10000; ++i) {
+        const double scale = std::pow(10, 200 * random_unit(4, i) - 100);
+        directions.push_back(scale * glm::dvec3(random_unit(1, i) - 0.5, random_unit(2, i) - 0.5,
+                                                std::pow(random_unit(3, i), 20)));
+    }
+    std::vector<glm::dvec2> points(directions.size());
+    equirect_points(directions, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec2 truth = equirect_point(directions[i]);
+        ASSERT_NEAR(std::remainder(points[i].x - truth.x, 1.0), 0, 1e-15);
+        ASSERT_NEAR(points[i].y, truth.y, 1e-15);
+        ASSERT_TRUE(points[i].x >= 0 && points[i].x < 1 && points[i].y >= 0 && points[i].y <= 1);
+    }
+}
+
 /// Frames in which the picture's axis is an axis of the cube, and one in which it isn't.
 std::vector<glm::dmat3> frames() {
     const double c = std::cos(0.3), s = std::sin(0.3);

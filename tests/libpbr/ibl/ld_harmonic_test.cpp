@@ -298,6 +298,55 @@ TEST(LdHarmonic, DoesNotDependOnTheOrderOfItsTasks) {
     EXPECT_EQ(from_a, from_b);
 }
 
+/// Texels of a level of `size` along a third of a face's height and over its edges onto the next ones.
+std::vector<glm::dvec3> belt(int size) {
+    std::vector<glm::dvec3> result;
+    for (const int face : {4, 0, 5, 1})  // +Z, +X, -Z, -X: s runs on from each to the next
+        for (int x = 0; x < size; ++x) result.push_back(cubemap_texel_direction({face, x, size / 3}, size));
+    return result;
+}
+
+TEST(LdHarmonic, HasNoSeamsWhereFacesMeet) {
+    // Steps from texel to texel, against those of the exact sum: no worse over edges than inside faces.
+    constexpr int kSize = 64;
+    const std::vector<glm::dvec3> at = belt(kSize);
+    for (const Picture& picture : pictures()) {
+        const PatchBlocks blocks(picture.view());
+        for (const double alpha : {0.0064, 0.04}) {
+            if (alpha < 0.04 && picture.name != "noise") continue;  // the near field's
+            const LdHarmonic harmonic(picture.view(), alpha, 1e-3, for_each_in_turn);
+            const std::vector<float> found = filtered(harmonic, alpha, at);
+            std::vector<double> truth(found.size());
+            std::uint64_t evaluations = 0;
+            ld_exact(blocks, alpha, at, truth, evaluations);
+            double inside = 0, across = 0, mean = 0;
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                const std::size_t next = (i + 1) % at.size();
+                const auto error = [&](std::size_t k) {
+                    return static_cast<double>(found[k * 3]) - truth[k * 3];
+                };
+                double& worst = next % kSize == 0 ? across : inside;
+                worst = std::max(worst, std::abs(error(next) - error(i)));
+                mean += truth[i * 3] / static_cast<double>(at.size());
+            }
+            EXPECT_LE(across, std::max(inside, 1e-5 * mean)) << picture.name << " " << alpha;
+        }
+    }
+}
+
+TEST(LdHarmonic, MeetsTheErrorOnThousandsOfLamps) {
+    for (const int count : {300, 3000}) {
+        Picture lamps{"lamps", 512, std::vector<float>(std::size_t{512} * 256 * 3, 0.1f)};
+        for (int i = 0; i < count; ++i)
+            add_texel(lamps, static_cast<int>(512 * random_unit(7, i, 0)),
+                      static_cast<int>(256 * random_unit(7, i, 1)), 1000);
+        const LdHarmonic harmonic(lamps.view(), 0.04, 1e-3, for_each_in_turn);
+        const PatchBlocks blocks(lamps.view());
+        for (const double alpha : {0.04, 0.36})
+            EXPECT_LT(errors(harmonic, blocks, alpha).rms, 1e-3) << count << " " << alpha;
+    }
+}
+
 TEST(LdHarmonic, SaysWhatItLeftOut) {
     const std::vector<float> picture = noise_picture(64, 32);
     const LdHarmonic harmonic(EquirectView{picture.data(), 64, 32}, 0.04, 1e-3, for_each_in_turn);

@@ -23,6 +23,7 @@
 
 namespace pbr {
 
+class FluxGrid;
 class RingModes;
 
 /// The coefficients E_lm of a picture's three channels for degrees 0 … bands and orders 0 … l, real and
@@ -33,13 +34,16 @@ class HarmonicSpectrum {
     /// Transforms a picture that is constant over each texel: exactly in azimuth, in colatitude by
     /// `points_a_row` Gauss-Legendre points weighted by sine, which sum to the row's exact area. bands >= 0,
     /// points_a_row >= 1 (see points_a_row()). Texels listed in `without` (face 0, rows ascending) count as
-    /// black. Relative error of a coefficient below 1e-12 apart from the points.
+    /// black. Relative error of a coefficient below 1e-12 apart from the points; but pictures of more than
+    /// about 3 rows a degree are spread over a coarser grid first, by the transpose of 6 x 6 interpolation,
+    /// in float: at degree l that moves coefficients by a share of (l / (2 bands))^6 at most, and by 3e-7 of
+    /// the largest.
     HarmonicSpectrum(const EquirectView& source, int bands, int points_a_row, const ForEach& each,
                      std::span<const CubeTexel> without = {});
 
     /// Transforms a cube map: each texel as points_a_side^2 Gauss-Legendre points that sum to its exact solid
     /// angle, spread over a finer grid by the transpose of 6 x 6 interpolation, whose error at degree l is
-    /// about (l / (3 bands))^6. The picture's frame is the cube's own, with u and v as of an equirect.
+    /// about (l / (2 bands))^6. The picture's frame is the cube's own, with u and v as of an equirect.
     HarmonicSpectrum(const CubeView& source, int bands, int points_a_side, const ForEach& each,
                      std::span<const CubeTexel> without = {});
 
@@ -62,6 +66,7 @@ class HarmonicSpectrum {
     HarmonicSpectrum(int bands, const glm::dmat3& world_to_source);
     void integrate(RingModes& modes, const std::vector<double>& colatitudes_rad,
                    const std::vector<double>& weights, int points_a_ring, const ForEach& each);
+    void integrate_grid(const FluxGrid& grid, const std::vector<double>& factors, const ForEach& each);
     void add_constant(const glm::dvec3& value);
     std::size_t start(int order) const;
     int bands_;
@@ -79,9 +84,9 @@ class HarmonicGrid {
     /// The field with coefficients kernel[l] E_lm, l up to kernel.size() - 1 <= spectrum.bands().
     HarmonicGrid(const HarmonicSpectrum& spectrum, std::span<const double> kernel, const ForEach& each);
 
-    /// RGB in a world direction (unit), interpolated from 6 x 6 grid points. Relative error below 2e-5 for
-    /// fields whose highest degrees hold little, as filtered ones do.
-    std::array<float, 3> sample(const glm::dvec3& direction) const;
+    /// RGB in world directions (unit), interpolated from 6 x 6 grid points; `rgb_out` holds 3 floats each.
+    /// Relative error below 3e-5 for fields whose highest degrees hold little, as filtered ones do.
+    void sample(std::span<const glm::dvec3> directions, std::span<float> rgb_out) const;
 
   private:
     static constexpr int kBorder = 3;

@@ -3,8 +3,9 @@
 //
 // A picture's few texels that hold much of its light - suns, lamps - would need high degrees, and ring where
 // these are cut off. They are taken out, and added to each output texel by the exact sum; what is left is
-// filtered by ibl/harmonic_filter.hpp. Both parts are the integral of the kernel over constant texels, so the
-// estimator converges to LdEstimator::exact.
+// filtered by ibl/harmonic_filter.hpp. Of lobes so narrow that this would take more than 600 degrees, an
+// equirect's part near the axis is summed texel by texel instead (ibl/near_field.hpp). All parts are the
+// integral of the kernel over constant texels, so the estimator converges to LdEstimator::exact.
 
 #include <array>
 #include <cstdint>
@@ -13,10 +14,11 @@
 #include <span>
 #include <vector>
 
+#include "pbr/ibl/bright_texels.hpp"
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/ibl/harmonic_filter.hpp"
-#include "pbr/ibl/patches.hpp"
+#include "pbr/ibl/near_field.hpp"
 
 namespace pbr {
 
@@ -53,7 +55,9 @@ class LdHarmonic {
         double truncation_error_ = 0;
         int bands_;
         std::optional<HarmonicGrid> grid_;
-        const PatchBlocks* bright_;
+        const BrightTexels* bright_;
+        std::optional<NearField> near_;
+        glm::dvec3 near_constant_{0};  ///< what the near part makes of the constant taken out of it
     };
 
     /// Prepares a level. alpha in [smallest_alpha, 1].
@@ -73,13 +77,14 @@ class LdHarmonic {
 
   private:
     template <class View>
-    void prepare(const View& source, int rows, double smallest_alpha, const ForEach& each);
+    void prepare(const View& source, int rows, double smallest_alpha, int most_bands, const ForEach& each);
+    glm::dvec3 mean() const;  ///< of what is left
 
     double max_error_;
     std::vector<CubeTexel> bright_;
-    std::optional<PatchBlocks> bright_blocks_;
+    std::optional<BrightTexels> bright_texels_;
     std::optional<HarmonicSpectrum> spectrum_;
-    double mean_;  ///< of what is left, over channels
+    EquirectView equirect_;  ///< if it is one
 };
 
 }  // namespace pbr
