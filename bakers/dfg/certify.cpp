@@ -54,8 +54,14 @@ TexelErrors texel_errors(const DfgParams& params, const Product& product, int y,
 
 /// Evaluations that each of the two checks can afford, so that together they cost about what the bake did.
 double affordable_views(const DfgParams& params, const Context& context) {
-    const double a_texel = method_of(params, context.accuracy()).evaluations();
-    return a_texel * params.width() * params.height() / (2.0 * truth().evaluations());
+    const pbr::DfgMethod method = method_of(params, context.accuracy());
+    double baked = 0, exact = 0;  // evaluations of a row
+    for (int x = 0; x < params.width(); ++x) {
+        const double across = std::max(0.0, value_of_column(params, x));  // NoL of subsurface is negative too
+        baked += method.evaluations(across);
+        exact += truth().evaluations(across);
+    }
+    return baked / exact * params.width() * params.height() / 2;
 }
 
 /// Errors at texels: all of them, or some chosen by hash, the hard corner always among them.

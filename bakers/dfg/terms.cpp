@@ -52,11 +52,11 @@ Columns disney_diffuse(Row& row) {
 /// itself: a half just below 1 is off by up to 2.4e-4, which for smooth surfaces is all of 1 - E_avg and
 /// more.
 Columns multiscatter(Row& row) {
-    constexpr std::uint64_t kNodes = 48;  // views that average_albedo_ggx takes
+    constexpr std::uint64_t kViews = 48;  // that average_albedo_ggx takes
     std::vector<double> lost = row.ggx().E;
     for (double& value : lost) value = 1 - value;
     const double average = 1 - pbr::average_albedo_ggx(row.alpha());
-    row.count("multiscatter", kNodes * static_cast<std::uint64_t>(pbr::dfg_rule(1e-8).evaluations()));
+    row.count("multiscatter", kViews);
     return {std::move(lost), std::vector<double>(row.views(), average)};
 }
 
@@ -150,7 +150,9 @@ Row::Ggx Row::ggx_of(pbr::DfgVisibility visibility, std::string_view effect) {
         pbr::dfg_ggx_row(across_.subspan(first, number), alpha(), method,
                          std::span(lobe.E).subspan(first, number), std::span(lobe.Fc).subspan(first, number));
     }
-    count(effect, views() * static_cast<std::uint64_t>(method.evaluations()));
+    std::uint64_t evaluations = 0;
+    for (const double NoV : across_) evaluations += static_cast<std::uint64_t>(method.evaluations(NoV));
+    count(effect, evaluations);
     return lobe;
 }
 
