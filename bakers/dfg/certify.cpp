@@ -125,9 +125,7 @@ Figure fit_figure(DfgParams params, Context& context) {
 }  // namespace
 
 Certificate certify(const DfgParams& asked, const Inputs&, const Product& product, Context& context) {
-    DfgParams params = settled(asked);
-    const Level& level = product.images[0].levels[0];
-    params.size = {level.width, level.height};  // which an accuracy as sampled may have chosen
+    const DfgParams params = as_baked(asked, product);
     const std::uint64_t seed = pbr::random_bits(params.seed, 0x646667u);
     const Accuracy& accuracy = context.accuracy();
     Certificate certificate;

@@ -25,6 +25,7 @@ DfgParams defaults() {
     params.disney = Disney::renormalised;
     params.cloth = Cloth::charlie;
     params.axis = Axis::nov;
+    params.roughness_axis = RoughnessAxis::perceptual;
     params.align = Align::center;
     params.form = Form::scale_bias;
     return params;
@@ -49,31 +50,6 @@ TEST(DfgBaker, TableOf128IsWithin1e6OfItsHighestAccuracyEverywhere) {
                                          truth.images[0].levels[0].texels[i]));
     EXPECT_LE(worst, 1e-6);
     EXPECT_GT(worst, 0);  // else nothing was compared
-}
-
-TEST(DfgBaker, HoldsBoundsAtEveryLayout) {
-    for (const auto& size : {std::vector{1}, {2}, {1, 64}, {64, 1}, {33, 17}})
-        for (const Align align : {Align::center, Align::ends})
-            for (const Axis axis : {Axis::nov, Axis::sqrt_nov})
-                for (const RoughnessAxis roughness_axis : {RoughnessAxis::perceptual, RoughnessAxis::alpha}) {
-                    DfgParams params = defaults();
-                    params.size = size;
-                    params.align = align;
-                    params.axis = axis;
-                    params.roughness_axis = roughness_axis;
-                    params.terms = {Term::ggx, Term::disney_diffuse};
-                    const Product product = bake_table(params);
-                    const Level& level = product.images[0].levels[0];
-                    ASSERT_EQ(level.texels.size(),
-                              static_cast<std::size_t>(params.width()) * params.height() * 3);
-                    for (std::size_t i = 0; i < level.texels.size(); i += 3) {
-                        ASSERT_GE(level.texels[i], 0);                                // E - Fc
-                        ASSERT_GE(level.texels[i + 1], 0);                            // Fc
-                        ASSERT_LE(level.texels[i] + level.texels[i + 1], 1.000001f);  // E
-                        ASSERT_GE(level.texels[i + 2], 0);
-                        ASSERT_LE(level.texels[i + 2], 1.0316f);
-                    }
-                }
 }
 
 TEST(DfgBaker, LayoutFieldsMoveTexelsAsTheySay) {
