@@ -95,22 +95,23 @@ struct TermKind {
     std::vector<std::string> (*names)(const DfgParams&);
     /// Its channels along a row.
     Columns (*evaluate)(Row&);
+    bool is_of_ggx = false;
     bool is_over_curvature = false;
 };
 
 constexpr std::array kTermKinds{
-    TermKind{Term::ggx, form_names, ggx},
+    TermKind{Term::ggx, form_names, ggx, true},
     TermKind{Term::disney_diffuse, single, disney_diffuse},
     TermKind{Term::multiscatter,
              [](const DfgParams&) {
                  return std::vector<std::string>{"lost", "average_lost"};
              },
-             multiscatter},
+             multiscatter, true},
     TermKind{Term::charlie, single, charlie},
-    TermKind{Term::clear_coat, single, clear_coat},
-    TermKind{Term::uncorrelated, form_names, uncorrelated},
+    TermKind{Term::clear_coat, single, clear_coat, true},
+    TermKind{Term::uncorrelated, form_names, uncorrelated, true},
     TermKind{Term::eon, single, eon},
-    TermKind{Term::subsurface, single, subsurface, true},
+    TermKind{Term::subsurface, single, subsurface, false, true},
 };
 
 const TermKind& kind_of(Term term) {
@@ -169,6 +170,8 @@ std::vector<std::string> channel_names(const DfgParams& params) {
             all.push_back(std::string(enum_name(term)) + (part.empty() ? "" : "." + part));
     return all;
 }
+
+bool is_of_ggx(Term term) { return kind_of(term).is_of_ggx; }
 
 bool is_over_curvature(Term term) { return kind_of(term).is_over_curvature; }
 

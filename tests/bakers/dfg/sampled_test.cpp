@@ -183,11 +183,29 @@ TEST(DfgSampled, CertificateSaysWhatTheTableBuysOverAnAnalyticFit) {
     Context context(1, {});
     const Certificate certificate = certify(defaults(), {}, product, context);
     EXPECT_NEAR(figure(certificate, "analytic_fit_error"), 0.50, 0.01);
+    EXPECT_NEAR(figure(certificate, "analytic_fit_error_lazarov"), 0.46, 0.01);
     EXPECT_LT(figure(certificate, "max_abs_error_sampled") * 100, figure(certificate, "analytic_fit_error"));
     // Where the fit was made to be good, it is: facing views of a rough surface.
     const pbr::DirectionalAlbedo exact = pbr::dfg_ggx(0.5, 1, pbr::DfgMethod::quadrature(1e-6));
     EXPECT_NEAR(karis_fit(0.5, 1).scale, exact.E - exact.Fc, 0.01);
     EXPECT_NEAR(karis_fit(0.5, 1).bias, exact.Fc, 0.01);
+}
+
+TEST(DfgSampled, CertificateBoundsQuadratureOnlyWhereThereIsAny) {
+    const auto bounded = [](Term term) {
+        DfgParams params = defaults();
+        params.terms = {term};
+        params.size = {4};
+        Context context(1, {});
+        const Certificate certificate = certify(params, {}, stored(params), context);
+        return std::ranges::any_of(certificate.figures, [](const Figure& figure) {
+            return figure.metric == "quadrature_error" && figure.evidence == Evidence::bound;
+        });
+    };
+    for (const Term term : {Term::ggx, Term::multiscatter, Term::clear_coat, Term::uncorrelated})
+        EXPECT_TRUE(bounded(term)) << enum_name(term);
+    for (const Term term : {Term::disney_diffuse, Term::charlie, Term::eon, Term::subsurface})
+        EXPECT_FALSE(bounded(term)) << enum_name(term);
 }
 
 TEST(DfgTerms, EachIsBakedOnlyIfAskedForAndLeavesTheOthersAlone) {
