@@ -11,7 +11,18 @@ namespace pbrbake {
 namespace dfg {
 
 enum class Target { none, filament, unity_hdrp, unreal, bevy, babylon, o3de };
-enum class Term { ggx, disney_diffuse, multiscatter, charlie, clear_coat, uncorrelated, eon, subsurface };
+enum class Term {
+    ggx,
+    disney_diffuse,
+    multiscatter,
+    charlie,
+    clear_coat,
+    uncorrelated,
+    eon,
+    chan,
+    hammon,
+    subsurface
+};
 enum class Disney { automatic, renormalised, original, original_minus_half };
 enum class Cloth { automatic, charlie, neubelt };
 enum class Axis { automatic, nov, sqrt_nov, cbrt_nov };
@@ -68,9 +79,9 @@ struct EnumNames<dfg::Target> {
 };
 template <>
 struct EnumNames<dfg::Term> {
-    static constexpr std::array<std::string_view, 8> names{"ggx",     "disney_diffuse", "multiscatter",
-                                                           "charlie", "clear_coat",     "uncorrelated",
-                                                           "eon",     "subsurface"};
+    static constexpr std::array<std::string_view, 10> names{
+        "ggx", "disney_diffuse", "multiscatter", "charlie",   "clear_coat", "uncorrelated",
+        "eon", "chan",           "hammon",       "subsurface"};
 };
 template <>
 struct EnumNames<dfg::Disney> {

@@ -4,10 +4,12 @@
 #include <array>
 #include <utility>
 
+#include "pbr/brdf/chan.hpp"
 #include "pbr/brdf/charlie.hpp"
 #include "pbr/brdf/clear_coat.hpp"
 #include "pbr/brdf/disney_diffuse.hpp"
 #include "pbr/brdf/eon.hpp"
+#include "pbr/brdf/hammon.hpp"
 #include "pbr/brdf/multiscatter.hpp"
 #include "pbr/brdf/roughness.hpp"
 #include "pbr/brdf/subsurface.hpp"
@@ -83,6 +85,18 @@ Columns eon(Row& row) {
         row.each("eon", 1, [&](double NoV) { return pbr::albedo_fon(pbr::eon_g_exact(NoV), row.down()); })};
 }
 
+constexpr std::uint64_t kDiffuseEvaluations = 24 * 16;  // of the rules in libpbr
+
+Columns chan(Row& row) {
+    return {row.each("chan", kDiffuseEvaluations,
+                     [&](double NoV) { return pbr::albedo_chan(NoV, row.alpha()); })};
+}
+
+Columns hammon(Row& row) {
+    return {row.each("hammon", kDiffuseEvaluations,
+                     [&](double NoV) { return pbr::albedo_hammon_single(NoV, row.alpha()); })};
+}
+
 Columns subsurface(Row& row) {
     constexpr std::uint64_t kNodes = 8 * 32;  // panels by points, at most
     return {row.each("subsurface", kNodes,
@@ -111,6 +125,8 @@ constexpr std::array kTermKinds{
     TermKind{Term::clear_coat, single, clear_coat, true},
     TermKind{Term::uncorrelated, form_names, uncorrelated, true},
     TermKind{Term::eon, single, eon},
+    TermKind{Term::chan, single, chan},
+    TermKind{Term::hammon, single, hammon},
     TermKind{Term::subsurface, single, subsurface, false, true},
 };
 

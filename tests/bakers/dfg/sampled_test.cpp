@@ -209,10 +209,12 @@ TEST(DfgSampled, CertificateBoundsQuadratureOnlyWhereThereIsAny) {
 }
 
 TEST(DfgTerms, EachIsBakedOnlyIfAskedForAndLeavesTheOthersAlone) {
-    const Term all[] = {Term::ggx,        Term::disney_diffuse, Term::multiscatter, Term::charlie,
-                        Term::clear_coat, Term::uncorrelated,   Term::eon};
-    const std::string effects[] = {"ggx",        "disney_diffuse", "multiscatter", "charlie",
-                                   "clear_coat", "uncorrelated",   "eon"};
+    const Term all[] = {Term::ggx,     Term::disney_diffuse, Term::multiscatter,
+                        Term::charlie, Term::clear_coat,     Term::uncorrelated,
+                        Term::eon,     Term::chan,           Term::hammon};
+    constexpr int kCount = static_cast<int>(std::size(all));
+    std::vector<std::string> effects;
+    for (const Term term : all) effects.emplace_back(enum_name(term));
     const auto baked = [&](std::vector<Term> terms, std::map<std::string, std::uint64_t>& counts) {
         DfgParams params = defaults();
         params.size = {12, 9};
@@ -222,8 +224,8 @@ TEST(DfgTerms, EachIsBakedOnlyIfAskedForAndLeavesTheOthersAlone) {
         counts = context.counts();
         return product;
     };
-    for (int a = 0; a < 7; ++a)
-        for (int b = 0; b < 7; ++b) {
+    for (int a = 0; a < kCount; ++a)
+        for (int b = 0; b < kCount; ++b) {
             if (a == b) continue;
             std::map<std::string, std::uint64_t> alone_counts, pair_counts;
             const Product alone = baked({all[a]}, alone_counts), pair = baked({all[b], all[a]}, pair_counts);
@@ -244,14 +246,15 @@ TEST(DfgTerms, EachIsBakedOnlyIfAskedForAndLeavesTheOthersAlone) {
 }
 
 constexpr std::array kTerms{Term::ggx,        Term::disney_diffuse, Term::multiscatter, Term::charlie,
-                            Term::clear_coat, Term::uncorrelated,   Term::eon,          Term::subsurface};
+                            Term::clear_coat, Term::uncorrelated,   Term::eon,          Term::chan,
+                            Term::hammon,     Term::subsurface};
 
 /// Every channel of every term is finite, and an albedo; those of GGX have 0 <= Fc <= E <= 1.
 void expect_in_bounds(Term term, Form form, const std::vector<double>& texel) {
     for (const double value : texel) {
         ASSERT_TRUE(std::isfinite(value)) << enum_name(term);
         ASSERT_GE(value, 0) << enum_name(term);
-        ASSERT_LE(value, term == Term::charlie ? 2.2 : 1.04) << enum_name(term);
+        ASSERT_LE(value, term == Term::charlie ? 2.2 : term == Term::chan ? 1.16 : 1.04) << enum_name(term);
     }
     if (term != Term::ggx && term != Term::uncorrelated) return;
     const double Fc = form == Form::mix ? texel[0] : texel[1];

@@ -85,13 +85,12 @@ TEST(Flags, GoDownTheWayOfAJob) {
 }
 
 TEST(Flags, AreNamedInMistakes) {
-    EXPECT_THAT(
-        mistakes("dfg", {{"size", "big"}, {"terms", "ggx,gx"}, {"seed", "nan"}}),
-        ElementsAre(
-            "--size: found \"big\"; allowed: integer 0 to 4096, or an array of 2 of those",
-            "--terms: found \"gx\"; allowed: \"ggx\", \"disney_diffuse\", \"multiscatter\", "
-            "\"charlie\", \"clear_coat\", \"uncorrelated\", \"eon\", \"subsurface\"; did you mean \"ggx\"?",
-            "--seed: found \"nan\"; allowed: integer 0 to 2^53 - 1"));
+    EXPECT_THAT(mistakes("dfg", {{"size", "big"}, {"terms", "ggx,gx"}, {"seed", "nan"}}),
+                ElementsAre("--size: found \"big\"; allowed: integer 0 to 4096, or an array of 2 of those",
+                            "--terms: found \"gx\"; allowed: \"ggx\", \"disney_diffuse\", \"multiscatter\", "
+                            "\"charlie\", \"clear_coat\", \"uncorrelated\", \"eon\", \"chan\", \"hammon\", "
+                            "\"subsurface\"; did you mean \"ggx\"?",
+                            "--seed: found \"nan\"; allowed: integer 0 to 2^53 - 1"));
     EXPECT_THAT(mistakes("dfg", {{"max-side", "0"}}),
                 ElementsAre("--max-side: found 0; allowed: integer 1 to 1048576"));
     EXPECT_THAT(mistakes("dfg", {{"accuracy", "1e-3:sampeld"}}),
