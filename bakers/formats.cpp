@@ -9,11 +9,12 @@ namespace pbrbake {
 
 std::span<const Format> formats() {
     using enum PixelType;
-    static const std::array<Format, 5> table{{{"exr", {half, float32}, 1024, true},
+    static const std::array<Format, 6> table{{{"exr", {half, float32}, 1024, true},
                                               {"ktx2", {half, float32, unorm16}, 4, true},
                                               {"dds", {half, float32, unorm16}, 4, true},
                                               {"png", {unorm16}, 4, false},
-                                              {"hdr", {rgbe}, 3, false}}};
+                                              {"hdr", {rgbe}, 3, false},
+                                              {"h", {half, float32, unorm16}, 4, false}}};
     return table;
 }
 

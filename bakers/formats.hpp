@@ -19,7 +19,7 @@ struct Format {
     bool is_chain;  ///< holds cube maps and mip levels
 };
 
-/// exr, ktx2, dds, png, hdr.
+/// exr, ktx2, dds, png, hdr, h.
 std::span<const Format> formats();
 
 /// The format of a name, or null.

@@ -21,4 +21,16 @@ inline ScaleBias karis_fit(double NoV, double perceptual_roughness) {
     return {z - 1.04 * a, w + 1.04 * a};
 }
 
+/// Lazarov's fit (2013), which Karis's started from. Its gloss is that of Blinn-Phong's power 8192^gloss,
+/// here 2 / alpha^2 - 2: alpha from .0156 up has a gloss in [0, 1], where it is clamped. Domain as above,
+/// largest error .50 of the scale and of the bias (smooth, grazing), .46 and .45 from perceptual roughness
+/// .05 up: it was made for another lobe.
+inline ScaleBias lazarov_fit(double NoV, double perceptual_roughness) {
+    const double alpha2 = std::pow(perceptual_roughness, 4);
+    const double gloss = alpha2 > 0 ? std::clamp(std::log2(std::max(2 / alpha2 - 2, 1.0)) / 13, 0.0, 1.0) : 1;
+    const double x = gloss / 0.96, y = 0.475 * gloss, z = (0.0175 * gloss - 0.015) / 0.96;
+    const double at_0 = x * std::min(y, std::exp2(-9.28 * NoV)) + z, at_1 = 0.25 * gloss + 0.75;
+    return {at_1 - at_0, at_0};
+}
+
 }  // namespace pbrbake::dfg

@@ -11,19 +11,6 @@ namespace {
 
 constexpr std::size_t kMostChannels = 4;  // what a texture holds
 
-/// How a shader finds its texel: what a target or an accuracy chose is said as well.
-Json layout_json(const DfgParams& params) {
-    Json terms = Json::array();
-    for (const Term term : params.terms) terms.push_back(enum_name(term));
-    return {{"size", {params.width(), params.height()}},
-            {"terms", terms},
-            {"axis", enum_name(params.axis)},
-            {"roughness_axis", enum_name(params.roughness_axis)},
-            {"align", enum_name(params.align)},
-            {"form", enum_name(params.form)},
-            {"flip_rows", params.flip_rows}};
-}
-
 }  // namespace
 
 pbr::DfgMethod method_of(const DfgParams& params, const Accuracy& accuracy) {
@@ -52,7 +39,7 @@ Product bake(const DfgParams& asked, const Inputs&, Context& context) {
     Product product;
     DfgParams params = settled(asked);
     if (context.accuracy().as_sampled) {
-        const Choice choice = choose(params, context);
+        const Choice choice = choose(asked, context);
         params = choice.params;
         product.pixel = choice.pixel;
     }

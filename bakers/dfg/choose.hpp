@@ -7,12 +7,13 @@
 namespace pbrbake::dfg {
 
 struct Choice {
-    DfgParams params;  ///< settled, with a size
+    DfgParams params;  ///< settled, with a size and axes
     PixelType pixel;
 };
 
-/// A size (square; width and height of 1,024 at most) and pixel type with which the sampled error is at most
-/// context.accuracy().max_error. `params` are settled but for their size. Where none reaches it: the largest.
-Choice choose(DfgParams params, Context& context);
+/// The smallest size (square, 1,024 at most) and a pixel type with which the sampled error is at most
+/// context.accuracy().max_error. Axes that the job leaves open, to no target either, are the defaults, or
+/// where that makes the table smaller cbrt_nov and sqrt_perceptual. Where nothing reaches it: the largest.
+Choice choose(const DfgParams& asked, Context& context);
 
 }  // namespace pbrbake::dfg

@@ -6,7 +6,7 @@
 
 namespace pbrbake::dfg {
 
-inline constexpr int kAlgorithmVersion = 2;
+inline constexpr int kAlgorithmVersion = 3;
 
 /// How E and Fc are had, of settled parameters.
 pbr::DfgMethod method_of(const DfgParams& params, const Accuracy& accuracy);

@@ -19,6 +19,19 @@ double texel(Align align, double coordinate, int n) {
     return align == Align::ends && n > 1 ? coordinate * (n - 1) : coordinate * n - 0.5;
 }
 
+/// The coordinate that a value in [0, 1] has along an axis of its first, second or third root, and the way
+/// back.
+double root_of(int degree, double value) {
+    return degree == 3 ? std::cbrt(value) : degree == 2 ? std::sqrt(value) : value;
+}
+
+double power_of(int degree, double coordinate) {
+    const double square = coordinate * coordinate;
+    return degree == 3 ? square * coordinate : degree == 2 ? square : coordinate;
+}
+
+int degree_of(Axis axis) { return axis == Axis::cbrt_nov ? 3 : axis == Axis::sqrt_nov ? 2 : 1; }
+
 bool is_over_curvature(const DfgParams& params) { return is_over_curvature(params.terms.front()); }
 
 template <class E>
@@ -37,6 +50,7 @@ DfgParams settled(DfgParams params) {
     settle(params.disney, target.disney);
     settle(params.cloth, target.cloth);
     settle(params.axis, target.axis);
+    settle(params.roughness_axis, RoughnessAxis::perceptual);
     settle(params.align, target.align);
     settle(params.form, target.form);
     params.flip_rows = params.flip_rows != target.flip_rows;
@@ -47,26 +61,28 @@ DfgParams settled(DfgParams params) {
 double value_of_column(const DfgParams& params, int x) {
     const double u = coordinate(params.align, x, params.width());
     if (is_over_curvature(params)) return 2 * u - 1;
-    return params.axis == Axis::sqrt_nov ? u * u : u;
+    return power_of(degree_of(params.axis), u);
 }
 
 double value_of_row(const DfgParams& params, int y) {
     const int row = params.flip_rows ? params.height() - 1 - y : y;
     const double v = coordinate(params.align, row, params.height());
-    const bool by_alpha = params.roughness_axis == RoughnessAxis::alpha && !is_over_curvature(params);
-    return by_alpha ? pbr::perceptual_roughness_from_alpha(v) : v;
+    if (is_over_curvature(params)) return v;
+    if (params.roughness_axis == RoughnessAxis::alpha) return pbr::perceptual_roughness_from_alpha(v);
+    return params.roughness_axis == RoughnessAxis::sqrt_perceptual ? power_of(2, v) : v;
 }
 
 double column_of_value(const DfgParams& params, double across) {
-    const double u = is_over_curvature(params)       ? (across + 1) / 2
-                     : params.axis == Axis::sqrt_nov ? std::sqrt(across)
-                                                     : across;
+    const double u = is_over_curvature(params) ? (across + 1) / 2 : root_of(degree_of(params.axis), across);
     return texel(params.align, u, params.width());
 }
 
 double row_of_value(const DfgParams& params, double down) {
-    const bool by_alpha = params.roughness_axis == RoughnessAxis::alpha && !is_over_curvature(params);
-    const double v = by_alpha ? pbr::alpha_from_perceptual_roughness(down) : down;
+    double v = down;
+    if (!is_over_curvature(params)) {
+        if (params.roughness_axis == RoughnessAxis::alpha) v = pbr::alpha_from_perceptual_roughness(down);
+        if (params.roughness_axis == RoughnessAxis::sqrt_perceptual) v = root_of(2, down);
+    }
     const double row = texel(params.align, v, params.height());
     return params.flip_rows ? params.height() - 1 - row : row;
 }
@@ -75,6 +91,28 @@ Range across(const DfgParams& params) { return {is_over_curvature(params) ? -1.0
 
 Range down(const DfgParams& params) {
     return {is_over_curvature(params) ? 0.0 : params.min_perceptual_roughness, 1};
+}
+
+Json layout_json(const DfgParams& params) {
+    Json terms = Json::array();
+    for (const Term term : params.terms) terms.push_back(enum_name(term));
+    return {{"size", {params.width(), params.height()}},
+            {"terms", terms},
+            {"axis", enum_name(params.axis)},
+            {"roughness_axis", enum_name(params.roughness_axis)},
+            {"align", enum_name(params.align)},
+            {"form", enum_name(params.form)},
+            {"flip_rows", params.flip_rows}};
+}
+
+DfgParams as_baked(const DfgParams& asked, const Product& product) {
+    using params_detail::read_value;
+    DfgParams params = settled(asked);
+    const Json& layout = product.properties.at("layout");
+    params.size = read_value<std::vector<int>>(layout.at("size"));
+    params.axis = read_value<Axis>(layout.at("axis"));
+    params.roughness_axis = read_value<RoughnessAxis>(layout.at("roughness_axis"));
+    return params;
 }
 
 double quadrature_error(const Accuracy& accuracy) {

@@ -1,6 +1,7 @@
 #pragma once
 // Where a table's texels lie.
 
+#include "bakers/baker.hpp"
 #include "bakers/dfg/params.hpp"
 
 namespace pbrbake::dfg {
@@ -25,6 +26,12 @@ struct Range {
 };
 Range across(const DfgParams& params);
 Range down(const DfgParams& params);
+
+/// How a shader finds its texel, for the record: what a target or an accuracy chose is said as well.
+Json layout_json(const DfgParams& params);
+
+/// The settled parameters of a product, whose size and axes an accuracy as sampled may have chosen.
+DfgParams as_baked(const DfgParams& asked, const Product& product);
 
 /// The largest quadrature error that an accuracy allows: draft 1e-3, production 1e-6, reference 1e-8; a
 /// hundredth of one that is stated as sampled, 1e-6 at most.

@@ -11,11 +11,22 @@ namespace pbrbake {
 namespace dfg {
 
 enum class Target { none, filament, unity_hdrp, unreal, bevy, babylon, o3de };
-enum class Term { ggx, disney_diffuse, multiscatter, charlie, clear_coat, uncorrelated, eon, subsurface };
+enum class Term {
+    ggx,
+    disney_diffuse,
+    multiscatter,
+    charlie,
+    clear_coat,
+    uncorrelated,
+    eon,
+    chan,
+    hammon,
+    subsurface
+};
 enum class Disney { automatic, renormalised, original, original_minus_half };
 enum class Cloth { automatic, charlie, neubelt };
-enum class Axis { automatic, nov, sqrt_nov };
-enum class RoughnessAxis { perceptual, alpha };
+enum class Axis { automatic, nov, sqrt_nov, cbrt_nov };
+enum class RoughnessAxis { automatic, perceptual, sqrt_perceptual, alpha };
 enum class Align { automatic, center, ends };
 enum class Form { automatic, scale_bias, mix };
 enum class Integrator { quadrature, is };
@@ -68,9 +79,9 @@ struct EnumNames<dfg::Target> {
 };
 template <>
 struct EnumNames<dfg::Term> {
-    static constexpr std::array<std::string_view, 8> names{"ggx",     "disney_diffuse", "multiscatter",
-                                                           "charlie", "clear_coat",     "uncorrelated",
-                                                           "eon",     "subsurface"};
+    static constexpr std::array<std::string_view, 10> names{
+        "ggx", "disney_diffuse", "multiscatter", "charlie",   "clear_coat", "uncorrelated",
+        "eon", "chan",           "hammon",       "subsurface"};
 };
 template <>
 struct EnumNames<dfg::Disney> {
@@ -83,11 +94,11 @@ struct EnumNames<dfg::Cloth> {
 };
 template <>
 struct EnumNames<dfg::Axis> {
-    static constexpr std::array<std::string_view, 3> names{"auto", "nov", "sqrt_nov"};
+    static constexpr std::array<std::string_view, 4> names{"auto", "nov", "sqrt_nov", "cbrt_nov"};
 };
 template <>
 struct EnumNames<dfg::RoughnessAxis> {
-    static constexpr std::array<std::string_view, 2> names{"perceptual", "alpha"};
+    static constexpr std::array<std::string_view, 4> names{"auto", "perceptual", "sqrt_perceptual", "alpha"};
 };
 template <>
 struct EnumNames<dfg::Align> {

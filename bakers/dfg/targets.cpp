@@ -40,15 +40,7 @@ const TargetLayout& layout_of(Target target) {
         // unreal
         {128, 32, {ggx}, Axis::nov, Align::center, Form::scale_bias, false, Disney::original, Cloth::charlie},
         // bevy
-        {128,
-         128,
-         {ggx},
-         Axis::nov,
-         Align::center,
-         Form::scale_bias,
-         false,
-         Disney::original,
-         Cloth::charlie},
+        {64, 64, {ggx}, Axis::nov, Align::center, Form::scale_bias, false, Disney::original, Cloth::charlie},
         // babylon
         {256,
          256,

@@ -4,10 +4,12 @@
 #include <array>
 #include <utility>
 
+#include "pbr/brdf/chan.hpp"
 #include "pbr/brdf/charlie.hpp"
 #include "pbr/brdf/clear_coat.hpp"
 #include "pbr/brdf/disney_diffuse.hpp"
 #include "pbr/brdf/eon.hpp"
+#include "pbr/brdf/hammon.hpp"
 #include "pbr/brdf/multiscatter.hpp"
 #include "pbr/brdf/roughness.hpp"
 #include "pbr/brdf/subsurface.hpp"
@@ -52,11 +54,11 @@ Columns disney_diffuse(Row& row) {
 /// itself: a half just below 1 is off by up to 2.4e-4, which for smooth surfaces is all of 1 - E_avg and
 /// more.
 Columns multiscatter(Row& row) {
-    constexpr std::uint64_t kNodes = 48;  // views that average_albedo_ggx takes
+    constexpr std::uint64_t kViews = 48;  // that average_albedo_ggx takes
     std::vector<double> lost = row.ggx().E;
     for (double& value : lost) value = 1 - value;
     const double average = 1 - pbr::average_albedo_ggx(row.alpha());
-    row.count("multiscatter", kNodes * static_cast<std::uint64_t>(pbr::dfg_rule(1e-8).evaluations()));
+    row.count("multiscatter", kViews);
     return {std::move(lost), std::vector<double>(row.views(), average)};
 }
 
@@ -83,6 +85,18 @@ Columns eon(Row& row) {
         row.each("eon", 1, [&](double NoV) { return pbr::albedo_fon(pbr::eon_g_exact(NoV), row.down()); })};
 }
 
+constexpr std::uint64_t kDiffuseEvaluations = 24 * 16;  // of the rules in libpbr
+
+Columns chan(Row& row) {
+    return {row.each("chan", kDiffuseEvaluations,
+                     [&](double NoV) { return pbr::albedo_chan(NoV, row.alpha()); })};
+}
+
+Columns hammon(Row& row) {
+    return {row.each("hammon", kDiffuseEvaluations,
+                     [&](double NoV) { return pbr::albedo_hammon_single(NoV, row.alpha()); })};
+}
+
 Columns subsurface(Row& row) {
     constexpr std::uint64_t kNodes = 8 * 32;  // panels by points, at most
     return {row.each("subsurface", kNodes,
@@ -95,22 +109,25 @@ struct TermKind {
     std::vector<std::string> (*names)(const DfgParams&);
     /// Its channels along a row.
     Columns (*evaluate)(Row&);
+    bool is_of_ggx = false;
     bool is_over_curvature = false;
 };
 
 constexpr std::array kTermKinds{
-    TermKind{Term::ggx, form_names, ggx},
+    TermKind{Term::ggx, form_names, ggx, true},
     TermKind{Term::disney_diffuse, single, disney_diffuse},
     TermKind{Term::multiscatter,
              [](const DfgParams&) {
                  return std::vector<std::string>{"lost", "average_lost"};
              },
-             multiscatter},
+             multiscatter, true},
     TermKind{Term::charlie, single, charlie},
-    TermKind{Term::clear_coat, single, clear_coat},
-    TermKind{Term::uncorrelated, form_names, uncorrelated},
+    TermKind{Term::clear_coat, single, clear_coat, true},
+    TermKind{Term::uncorrelated, form_names, uncorrelated, true},
     TermKind{Term::eon, single, eon},
-    TermKind{Term::subsurface, single, subsurface, true},
+    TermKind{Term::chan, single, chan},
+    TermKind{Term::hammon, single, hammon},
+    TermKind{Term::subsurface, single, subsurface, false, true},
 };
 
 const TermKind& kind_of(Term term) {
@@ -150,7 +167,9 @@ Row::Ggx Row::ggx_of(pbr::DfgVisibility visibility, std::string_view effect) {
         pbr::dfg_ggx_row(across_.subspan(first, number), alpha(), method,
                          std::span(lobe.E).subspan(first, number), std::span(lobe.Fc).subspan(first, number));
     }
-    count(effect, views() * static_cast<std::uint64_t>(method.evaluations()));
+    std::uint64_t evaluations = 0;
+    for (const double NoV : across_) evaluations += static_cast<std::uint64_t>(method.evaluations(NoV));
+    count(effect, evaluations);
     return lobe;
 }
 
@@ -167,6 +186,8 @@ std::vector<std::string> channel_names(const DfgParams& params) {
             all.push_back(std::string(enum_name(term)) + (part.empty() ? "" : "." + part));
     return all;
 }
+
+bool is_of_ggx(Term term) { return kind_of(term).is_of_ggx; }
 
 bool is_over_curvature(Term term) { return kind_of(term).is_over_curvature; }
 

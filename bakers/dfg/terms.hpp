@@ -69,4 +69,7 @@ std::vector<std::string> channel_names(const DfgParams& params);
 /// Whether a term is had over (NoL, curvature) instead of (NoV, roughness).
 bool is_over_curvature(Term term);
 
+/// Whether a term is made of E and Fc, whose error the certificate bounds.
+bool is_of_ggx(Term term);
+
 }  // namespace pbrbake::dfg

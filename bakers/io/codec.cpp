@@ -93,6 +93,7 @@ std::vector<std::byte> encode(std::string_view format, const Image& image, const
     if (format == "exr") return encode_exr(image, info);
     if (format == "ktx2") return encode_ktx2(image, info);
     if (format == "dds") return encode_dds(image, info);
+    if (format == "h") return encode_c_header(image, info);
     return format == "png" ? encode_png16(image) : encode_hdr(image, info);
 }
 

@@ -13,6 +13,7 @@ namespace pbrbake::io {
 std::vector<std::byte> encode_exr(const Image& image, const FileInfo& info);
 std::vector<std::byte> encode_ktx2(const Image& image, const FileInfo& info);
 std::vector<std::byte> encode_dds(const Image& image, const FileInfo& info);
+std::vector<std::byte> encode_c_header(const Image& image, const FileInfo& info);
 std::vector<std::byte> encode_png16(const Image& image);
 std::vector<std::byte> encode_hdr(const Image& image, const FileInfo& info);
 

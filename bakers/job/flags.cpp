@@ -127,8 +127,8 @@ std::optional<Json> convert_array(const std::string& text, const Json& node) {
 }
 
 /// The JSON that a text stands for, or nothing if the node's type can't be written that way. Ranges and names
-/// are for the schema to judge. An object of one required property is written as that property's value:
-/// `--accuracy 0.001`.
+/// are for the schema to judge. An object of one required property is written as that property's value, and
+/// another's after a colon: `--accuracy 0.001`, `--accuracy 0.001:sampled`.
 std::optional<Json> convert(const std::string& text, const Json& reference) {
     const Json& node = job_schema().resolve(reference);
     if (node.contains("enum")) {
@@ -151,7 +151,14 @@ std::optional<Json> convert(const std::string& text, const Json& reference) {
     if (is_type(node, "array")) return convert_array(text, node);
     if (is_type(node, "object") && node.contains("required") && node["required"].size() == 1) {
         const auto& member = node["required"][0].get_ref<const std::string&>();
-        if (auto value = convert(text, node["properties"][member])) return Json{{member, *value}};
+        const std::size_t colon = text.find(':');
+        const auto value = convert(text.substr(0, colon), node["properties"][member]);
+        if (!value) return std::nullopt;
+        if (colon == std::string::npos) return Json{{member, *value}};
+        for (const auto& [name, property] : node["properties"].items())
+            if (name != member)
+                if (const auto other = convert(text.substr(colon + 1), property))
+                    return Json{{member, *value}, {name, *other}};
         return std::nullopt;
     }
     return Json(text);

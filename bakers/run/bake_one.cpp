@@ -165,7 +165,7 @@ class BakeRun {
     }
 
     void encode() {
-        const io::FileInfo info{pixel(), metadata(job_, bake_, product_)};
+        const io::FileInfo info{pixel(), metadata(job_, bake_, product_), bake_.name};
         for (const Image& image : product_.images) {
             const fs::path file = files_.empty() ? fs::path(bake_.file) : named_file(image.name);
             std::vector<std::byte> bytes = io::encode(bake_.format, image, info);

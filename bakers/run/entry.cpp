@@ -84,12 +84,16 @@ Json entry(const job::Job& job, const job::Bake& bake, std::span<const job::Sour
 
 std::map<std::string, std::string> metadata(const job::Job& job, const job::Bake& bake,
                                             const Product& product) {
-    return {{"pbrbake:tool", std::string(tool_version())},
-            {"pbrbake:kind", bake.kind},
-            {"pbrbake:params", job::to_line(bake.params)},
-            {"pbrbake:working_space", job.working_space},
-            {"pbrbake:units", product.units},
-            {"pbrbake:scale", job::to_line(product.scale)}};
+    std::map<std::string, std::string> entries{{"pbrbake:tool", std::string(tool_version())},
+                                               {"pbrbake:kind", bake.kind},
+                                               {"pbrbake:params", job::to_line(bake.params)},
+                                               {"pbrbake:working_space", job.working_space},
+                                               {"pbrbake:units", product.units},
+                                               {"pbrbake:scale", job::to_line(product.scale)}};
+    for (const char* key : {"columns", "layout"})  // of a table
+        if (product.properties.contains(key))
+            entries[std::string("pbrbake:") + key] = job::to_line(product.properties[key]);
+    return entries;
 }
 
 std::filesystem::path sidecar_file(const job::Job& job, const job::Bake& bake) {

@@ -30,11 +30,29 @@ void DfgTable128(benchmark::State& state) {
             pbr::dfg_ggx_row(NoV, std::pow((y + 0.5) / 128, 2), method, E, Fc);
             benchmark::DoNotOptimize(E.data());
         }
-    state.counters["evaluations/texel"] = method.evaluations();
+    int evaluations = 0;
+    for (const double view : NoV) evaluations += method.evaluations(view);
+    state.counters["evaluations/texel"] = evaluations / 128.0;
 }
 BENCHMARK(DfgTable128)->DenseRange(2, 8)->Unit(benchmark::kMillisecond);
 
-/// The same table by Monte Carlo with range(0) samples a texel.
+/// A table of range(0) x range(0) texels at 1e-6: its cost is linear in texels.
+void DfgTableOfSize(benchmark::State& state) {
+    const auto method = pbr::DfgMethod::quadrature(1e-6);
+    const auto side = static_cast<std::size_t>(state.range(0));
+    std::vector<double> NoV(side), E(side), Fc(side);
+    for (std::size_t x = 0; x < side; ++x)
+        NoV[x] = (static_cast<double>(x) + 0.5) / static_cast<double>(side);
+    for (auto _ : state)
+        for (const double perceptual_roughness : NoV) {
+            pbr::dfg_ggx_row(NoV, perceptual_roughness * perceptual_roughness, method, E, Fc);
+            benchmark::DoNotOptimize(E.data());
+        }
+    state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));
+}
+BENCHMARK(DfgTableOfSize)->RangeMultiplier(2)->Range(32, 512)->Unit(benchmark::kMillisecond);
+
+/// DfgTable128 by Monte Carlo with range(0) samples a texel.
 void DfgTable128MonteCarlo(benchmark::State& state) {
     const auto method = pbr::DfgMethod::importance_sampling(static_cast<int>(state.range(0)), 0);
     for (auto _ : state)

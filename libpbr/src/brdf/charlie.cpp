@@ -1,48 +1,12 @@
 #include "pbr/brdf/charlie.hpp"
 
-#include <array>
-
-#include "pbr/numerics/quadrature.hpp"
+#include "src/brdf/hemisphere_rule.hpp"
 
 namespace pbr {
-namespace {
-
-constexpr int kNodes = 40;
-
-/// A node of a rule over [0, 1], crowded at an end.
-struct Node {
-    double value;
-    double weight;
-};
-
-/// Over NoL = u^3 (4 - 3u): crowded at the horizon, where the lobe is, and smooth at the zenith, where the
-/// sine has a root.
-std::array<Node, kNodes> height_rule() {
-    const QuadratureRule rule = gauss_legendre(kNodes);
-    std::array<Node, kNodes> nodes;
-    for (int i = 0; i < kNodes; ++i) {
-        const double u = rule.nodes[i];
-        nodes[i] = {u * u * u * (4 - 3 * u), rule.weights[i] * 12 * u * u * (1 - u)};
-    }
-    return nodes;
-}
-
-/// Over the cosine of the azimuth from the antipode of wo, at pi t^2: crowded at the antipode, where the lobe
-/// is sharpest.
-std::array<Node, kNodes> azimuth_rule() {
-    const QuadratureRule rule = gauss_legendre(kNodes);
-    std::array<Node, kNodes> nodes;
-    for (int i = 0; i < kNodes; ++i) {
-        const double t = rule.nodes[i];
-        nodes[i] = {sin_cos_pi(t * t).cos, rule.weights[i] * 2 * t * 2 * std::numbers::pi};
-    }
-    return nodes;
-}
-
-}  // namespace
 
 double albedo_charlie(double NoV, double alpha, CharlieVisibility visibility) {
-    static const std::array<Node, kNodes> heights = height_rule(), azimuths = azimuth_rule();
+    constexpr int kNodes = 40;
+    static const std::vector<HemisphereNode> heights = height_rule(kNodes), azimuths = azimuth_rule(kNodes);
     const double sin_v = std::sqrt((1 - NoV) * (1 + NoV));
     double albedo = 0;
     for (const auto& [NoL, weight] : heights) {

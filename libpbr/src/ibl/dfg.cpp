@@ -1,6 +1,6 @@
 #include "pbr/ibl/dfg.hpp"
 
-#include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -13,15 +13,21 @@
 namespace pbr {
 namespace {
 
-/// Node counts and the largest error they leave, found by tests/libpbr/ibl/dfg_test.cpp over the whole
-/// domain.
+/// Node counts of each band and the largest error they leave, found over alpha in [1e-8, 1] and every view,
+/// and held by tests/libpbr/ibl/dfg_test.cpp.
 struct RuleSize {
     double max_error;
-    int azimuth;
-    int radial;
+    struct Nodes {
+        int azimuth, radial;
+    };
+    std::array<Nodes, 4> bands;
 };
-constexpr RuleSize kRuleSizes[] = {{1e-2, 14, 18}, {1e-3, 16, 22}, {1e-4, 24, 26}, {1e-5, 28, 30},
-                                   {1e-6, 32, 36}, {1e-7, 40, 46}, {1e-8, 48, 60}};
+constexpr std::array kLowestNoV{0.0, 0.01, 0.1, 0.4};
+constexpr RuleSize kRuleSizes[] = {
+    {1e-2, {{{12, 18}, {8, 12}, {6, 12}, {6, 12}}}},    {1e-3, {{{14, 24}, {10, 16}, {8, 16}, {6, 12}}}},
+    {1e-4, {{{18, 28}, {14, 20}, {10, 20}, {6, 20}}}},  {1e-5, {{{22, 30}, {16, 24}, {12, 20}, {8, 20}}}},
+    {1e-6, {{{26, 38}, {20, 26}, {14, 26}, {10, 26}}}}, {1e-7, {{{30, 46}, {22, 32}, {16, 32}, {12, 38}}}},
+    {1e-8, {{{32, 56}, {24, 50}, {18, 52}, {14, 56}}}}};
 
 DirectionalAlbedo importance_sampled(double NoV, double alpha, const DfgMethod& method) {
     const std::uint64_t seed =
@@ -48,11 +54,21 @@ DirectionalAlbedo importance_sampled(double NoV, double alpha, const DfgMethod& 
 
 }  // namespace
 
+const DfgRule::Band& DfgRule::band_of(double NoV) const {
+    std::size_t band = bands.size() - 1;
+    while (band > 0 && NoV < bands[band].lowest_NoV) --band;
+    return bands[band];
+}
+
 DfgRule dfg_rule(double max_error) {
     assert(max_error > 0);
     const RuleSize* size = std::begin(kRuleSizes);
     while (size + 1 != std::end(kRuleSizes) && size->max_error > max_error) ++size;
-    return {gauss_legendre(size->azimuth), gauss_legendre(size->radial), size->max_error};
+    DfgRule rule{{}, size->max_error};
+    for (std::size_t i = 0; i < rule.bands.size(); ++i)
+        rule.bands[i] = {kLowestNoV[i], gauss_legendre(size->bands[i].azimuth),
+                         gauss_legendre(size->bands[i].radial)};
+    return rule;
 }
 
 void dfg_ggx_row(std::span<const double> NoV, double alpha, const DfgMethod& method, std::span<double> E,

@@ -17,7 +17,6 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <numbers>
 
 #include "pbr/numerics/elementary.hpp"
@@ -101,7 +100,7 @@ HWY_INLINE Sums<V> radial_sums(D d, const Radius<V>& radius, double longest, con
 
 /// A vector of views: E and Fc by the product rule.
 template <DfgVisibility visibility, class D, class V = hn::Vec<D>>
-HWY_INLINE Sums<V> integrate(D d, V NoV, double alpha, double longest, const DfgRule& rule) {
+HWY_INLINE Sums<V> integrate(D d, V NoV, double alpha, double longest, const DfgRule::Band& rule) {
     const V one = hn::Set(d, 1.0), a2 = hn::Set(d, alpha * alpha);
     // A view at the horizon is taken as its limit, 1 - E being about .21 NoV / alpha there.
     const V vz = hn::Min(hn::Max(NoV, hn::Set(d, 1e-10 * alpha)), one);
@@ -138,17 +137,27 @@ HWY_INLINE void row(const double* NoV, std::size_t count, double alpha, const Df
     const hn::ScalableTag<double> d;
     const std::size_t lanes = hn::Lanes(d);
     double buffer[hn::MaxLanes(d)];
+    std::size_t view[hn::MaxLanes(d)];
     // Beyond y = ln(2/alpha) + 20 (slopes above e^20) less than 1e-8 of a lobe is left.
     const double longest = log_exact(2 / alpha) + 20;
-    for (std::size_t begin = 0; begin < count; begin += lanes) {
-        const std::size_t used = std::min(lanes, count - begin);
-        std::copy_n(NoV + begin, used, buffer);
-        std::fill(buffer + used, buffer + lanes, 1.0);
-        const auto sums = integrate<visibility>(d, hn::LoadU(d, buffer), alpha, longest, rule);
-        hn::StoreU(sums.E, d, buffer);
-        std::copy_n(buffer, used, E + begin);
-        hn::StoreU(sums.Fc, d, buffer);
-        std::copy_n(buffer, used, Fc + begin);
+    for (const DfgRule::Band& band : rule.bands) {
+        std::size_t used = 0;
+        const auto flush = [&]() HWY_ATTR {
+            if (used == 0) return;
+            for (std::size_t i = 0; i < lanes; ++i) buffer[i] = NoV[view[i < used ? i : 0]];
+            const auto sums = integrate<visibility>(d, hn::LoadU(d, buffer), alpha, longest, band);
+            hn::StoreU(sums.E, d, buffer);
+            for (std::size_t i = 0; i < used; ++i) E[view[i]] = buffer[i];
+            hn::StoreU(sums.Fc, d, buffer);
+            for (std::size_t i = 0; i < used; ++i) Fc[view[i]] = buffer[i];
+            used = 0;
+        };
+        for (std::size_t i = 0; i < count; ++i) {
+            if (&rule.band_of(NoV[i]) != &band) continue;
+            view[used++] = i;
+            if (used == lanes) flush();
+        }
+        flush();
     }
 }
 

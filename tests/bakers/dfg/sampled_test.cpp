@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -36,10 +37,10 @@ Product stored(const DfgParams& params, PixelType pixel = PixelType::half, Accur
     return product;
 }
 
-/// A shader's lookup in the default layout, written as a shader has it.
-double look_up(const Product& product, double NoV, double perceptual_roughness, int channel) {
+/// A shader's bilinear lookup in a table with samples at both ends, as a shader has it.
+double texture(const Product& product, double u, double v, int channel) {
     const Level& level = product.images[0].levels[0];
-    const double x = std::sqrt(NoV) * (level.width - 1), y = perceptual_roughness * (level.height - 1);
+    const double x = u * (level.width - 1), y = v * (level.height - 1);
     const int x0 = std::min(static_cast<int>(x), level.width - 2),
               y0 = std::min(static_cast<int>(y), level.height - 2);
     const auto at = [&](int j, int i) {
@@ -47,6 +48,21 @@ double look_up(const Product& product, double NoV, double perceptual_roughness, 
     };
     return std::lerp(std::lerp(at(y0, x0), at(y0, x0 + 1), x - x0),
                      std::lerp(at(y0 + 1, x0), at(y0 + 1, x0 + 1), x - x0), y - y0);
+}
+
+/// In the default layout, and in the one that crowds texels where tables bend.
+double look_up(const Product& product, double NoV, double perceptual_roughness, int channel) {
+    return texture(product, std::sqrt(NoV), perceptual_roughness, channel);
+}
+double look_up_crowded(const Product& product, double NoV, double perceptual_roughness, int channel) {
+    return texture(product, std::cbrt(NoV), std::sqrt(perceptual_roughness), channel);
+}
+using LookUp = decltype(&look_up);
+
+DfgParams crowded(DfgParams params) {
+    params.axis = Axis::cbrt_nov;
+    params.roughness_axis = RoughnessAxis::sqrt_perceptual;
+    return params;
 }
 
 double figure(const Certificate& certificate, const std::string& metric) {
@@ -57,7 +73,7 @@ double figure(const Certificate& certificate, const std::string& metric) {
 }
 
 /// The largest error at a million points: 1,000 random roughnesses by 1,000 random views.
-double brute_force(const Product& product) {
+double brute_force(const Product& product, LookUp look_up) {
     const pbr::DfgMethod truth = pbr::DfgMethod::quadrature(1e-5);
     std::vector<double> NoV(1000), E(1000), Fc(1000);
     double worst = 0;
@@ -78,28 +94,27 @@ double brute_force(const Product& product) {
     return worst;
 }
 
-TEST(DfgSampled, DefaultLayoutKeepsItsPromiseAtAMillionRandomPoints) {
-    const Product product = stored(defaults());
-    Context context(2, {});
-    context.set_certify_fully(true);
-    const Certificate certificate = certify(defaults(), {}, product, context);
-    const double certified = figure(certificate, "max_abs_error_sampled"), found = brute_force(product);
-    EXPECT_LE(certified, 2.5e-3);
-    EXPECT_LE(found, certified * 1.02);  // cells are looked at in their middles and quarters
-    EXPECT_GT(found, certified * 0.8);   // a million points come near it
-    EXPECT_LE(certified, figure(certificate, "interpolation_error") + figure(certificate, "max_abs_error"));
-}
-
-TEST(DfgSampled, DefaultLayoutOf256IsWithin1e3) {
-    DfgParams params = defaults();
-    params.size = {256};
-    const Product product = stored(params);
-    Context context(2, {});
-    const DfgParams layout = settled(params);
-    EXPECT_LE(
-        sampled_errors(layout, &product, pbr::DfgMethod::quadrature(1e-5), Probing::middles, 0, 0, context)
-            .sampled,
-        1e-3);
+TEST(DfgSampled, ErrorsAreAsPromisedAndConfirmedAtAMillionRandomPoints) {
+    struct Case {
+        DfgParams params;
+        int size;
+        LookUp look_up;
+        double promised;
+    };
+    for (const Case& item : {Case{defaults(), 128, look_up, 2.5e-3}, Case{defaults(), 256, look_up, 1e-3},
+                             Case{crowded(defaults()), 128, look_up_crowded, 1e-3}}) {
+        DfgParams params = item.params;
+        params.size = {item.size};
+        const Product product = stored(params);
+        Context context(2, {});
+        const double certified = sampled_errors(settled(params), &product, pbr::DfgMethod::quadrature(1e-5),
+                                                Probing::thorough, 0, 0, context)
+                                     .sampled,
+                     found = brute_force(product, item.look_up);
+        EXPECT_LE(certified, item.promised) << item.size;
+        EXPECT_LE(found, certified * 1.02) << item.size;  // cells are looked at in middles and quarters
+        EXPECT_GT(found, certified * 0.8) << item.size;   // a million points come near it
+    }
 }
 
 TEST(DfgSampled, AccuracyAsSampledChoosesSizeAndPixel) {
@@ -114,17 +129,34 @@ TEST(DfgSampled, AccuracyAsSampledChoosesSizeAndPixel) {
     EXPECT_LE(certificate.headline->value, loose.max_error);
 }
 
-TEST(DfgSampled, WhiteFurnaceOfKullaContyReturnsOne) {
-    DfgParams params = defaults();
+TEST(DfgSampled, AccuracyAsSampledChoosesAxesThatTheJobLeavesOpen) {
+    const Accuracy accuracy{"", 4e-3, true};
+    const auto layout = [&](const DfgParams& params) {
+        Context context(2, accuracy);
+        return bake(params, {}, context).properties["layout"];
+    };
+    const Json open = layout(defaults());
+    EXPECT_EQ(open["axis"], "cbrt_nov");
+    EXPECT_EQ(open["roughness_axis"], "sqrt_perceptual");
+    EXPECT_LT(open["size"][0], 96);
+    DfgParams stated = defaults();
+    stated.axis = Axis::sqrt_nov;
+    stated.roughness_axis = RoughnessAxis::perceptual;
+    EXPECT_EQ(layout(stated)["axis"], "sqrt_nov");
+    EXPECT_EQ(layout(stated)["size"][0], 96);
+}
+
+/// How far from 1 a furnace is, single scattering as it is and Kulla and Conty's lobe from the table, over
+/// perceptual roughness from .05 up.
+double furnace_error(DfgParams params, int size, LookUp look_up) {
     params.terms = {Term::multiscatter};
-    params.size = {256};
+    params.size = {size};
     const Product product = stored(params);
     const pbr::QuadratureRule rule = pbr::gauss_legendre(64);
     double worst = 0;
     for (int i = 0; i < 200; ++i) {
         const double p = 0.05 + 0.95 * std::pow(i / 199.0, 2), average_lost = look_up(product, 0.5, p, 1);
-        // The lobe's integral over directions of light, and single scattering as it is, not as tabulated.
-        double multiple = 0;
+        double multiple = 0;  // the lobe's integral over directions of light
         for (int k = 0; k < rule.size(); ++k) {
             const double u = rule.nodes[k], mu = u * u * u;  // E bends at mu = alpha
             multiple += rule.weights[k] * 3 * u * u * 2 * mu * look_up(product, mu, p, 0);
@@ -137,8 +169,13 @@ TEST(DfgSampled, WhiteFurnaceOfKullaContyReturnsOne) {
             worst = std::max(worst, std::abs(E[k] + lost * multiple / average_lost - 1));
         }
     }
-    RecordProperty("worst", std::to_string(worst));
-    EXPECT_LE(worst, 2e-3) << worst;
+    return worst;
+}
+
+TEST(DfgSampled, WhiteFurnaceOfKullaContyReturnsOne) {
+    EXPECT_LE(furnace_error(crowded(defaults()), 128, look_up_crowded), 6e-4);
+    EXPECT_LE(furnace_error(defaults(), 256, look_up), 7e-4);
+    EXPECT_LE(furnace_error(defaults(), 128, look_up), 2.5e-3);  // above the 2e-3 that the others keep
 }
 
 TEST(DfgSampled, CertificateSaysWhatTheTableBuysOverAnAnalyticFit) {
@@ -146,6 +183,7 @@ TEST(DfgSampled, CertificateSaysWhatTheTableBuysOverAnAnalyticFit) {
     Context context(1, {});
     const Certificate certificate = certify(defaults(), {}, product, context);
     EXPECT_NEAR(figure(certificate, "analytic_fit_error"), 0.50, 0.01);
+    EXPECT_NEAR(figure(certificate, "analytic_fit_error_lazarov"), 0.46, 0.01);
     EXPECT_LT(figure(certificate, "max_abs_error_sampled") * 100, figure(certificate, "analytic_fit_error"));
     // Where the fit was made to be good, it is: facing views of a rough surface.
     const pbr::DirectionalAlbedo exact = pbr::dfg_ggx(0.5, 1, pbr::DfgMethod::quadrature(1e-6));
@@ -153,11 +191,30 @@ TEST(DfgSampled, CertificateSaysWhatTheTableBuysOverAnAnalyticFit) {
     EXPECT_NEAR(karis_fit(0.5, 1).bias, exact.Fc, 0.01);
 }
 
+TEST(DfgSampled, CertificateBoundsQuadratureOnlyWhereThereIsAny) {
+    const auto bounded = [](Term term) {
+        DfgParams params = defaults();
+        params.terms = {term};
+        params.size = {4};
+        Context context(1, {});
+        const Certificate certificate = certify(params, {}, stored(params), context);
+        return std::ranges::any_of(certificate.figures, [](const Figure& figure) {
+            return figure.metric == "quadrature_error" && figure.evidence == Evidence::bound;
+        });
+    };
+    for (const Term term : {Term::ggx, Term::multiscatter, Term::clear_coat, Term::uncorrelated})
+        EXPECT_TRUE(bounded(term)) << enum_name(term);
+    for (const Term term : {Term::disney_diffuse, Term::charlie, Term::eon, Term::subsurface})
+        EXPECT_FALSE(bounded(term)) << enum_name(term);
+}
+
 TEST(DfgTerms, EachIsBakedOnlyIfAskedForAndLeavesTheOthersAlone) {
-    const Term all[] = {Term::ggx,        Term::disney_diffuse, Term::multiscatter, Term::charlie,
-                        Term::clear_coat, Term::uncorrelated,   Term::eon};
-    const std::string effects[] = {"ggx",        "disney_diffuse", "multiscatter", "charlie",
-                                   "clear_coat", "uncorrelated",   "eon"};
+    const Term all[] = {Term::ggx,     Term::disney_diffuse, Term::multiscatter,
+                        Term::charlie, Term::clear_coat,     Term::uncorrelated,
+                        Term::eon,     Term::chan,           Term::hammon};
+    constexpr int kCount = static_cast<int>(std::size(all));
+    std::vector<std::string> effects;
+    for (const Term term : all) effects.emplace_back(enum_name(term));
     const auto baked = [&](std::vector<Term> terms, std::map<std::string, std::uint64_t>& counts) {
         DfgParams params = defaults();
         params.size = {12, 9};
@@ -167,8 +224,8 @@ TEST(DfgTerms, EachIsBakedOnlyIfAskedForAndLeavesTheOthersAlone) {
         counts = context.counts();
         return product;
     };
-    for (int a = 0; a < 7; ++a)
-        for (int b = 0; b < 7; ++b) {
+    for (int a = 0; a < kCount; ++a)
+        for (int b = 0; b < kCount; ++b) {
             if (a == b) continue;
             std::map<std::string, std::uint64_t> alone_counts, pair_counts;
             const Product alone = baked({all[a]}, alone_counts), pair = baked({all[b], all[a]}, pair_counts);
@@ -188,21 +245,80 @@ TEST(DfgTerms, EachIsBakedOnlyIfAskedForAndLeavesTheOthersAlone) {
         }
 }
 
-TEST(DfgTerms, HoldTheirLimitsAtEverySize) {
-    for (const Term term : {Term::ggx, Term::disney_diffuse, Term::multiscatter, Term::charlie,
-                            Term::clear_coat, Term::uncorrelated, Term::eon, Term::subsurface})
-        for (const std::vector<int>& size : {std::vector{1}, {2}, {1, 512}})
-            for (const RoughnessAxis axis : {RoughnessAxis::perceptual, RoughnessAxis::alpha}) {
+constexpr std::array kTerms{Term::ggx,        Term::disney_diffuse, Term::multiscatter, Term::charlie,
+                            Term::clear_coat, Term::uncorrelated,   Term::eon,          Term::chan,
+                            Term::hammon,     Term::subsurface};
+
+/// Every channel of every term is finite, and an albedo; those of GGX have 0 <= Fc <= E <= 1.
+void expect_in_bounds(Term term, Form form, const std::vector<double>& texel) {
+    for (const double value : texel) {
+        ASSERT_TRUE(std::isfinite(value)) << enum_name(term);
+        ASSERT_GE(value, 0) << enum_name(term);
+        ASSERT_LE(value, term == Term::charlie ? 2.2 : term == Term::chan ? 1.16 : 1.04) << enum_name(term);
+    }
+    if (term != Term::ggx && term != Term::uncorrelated) return;
+    const double Fc = form == Form::mix ? texel[0] : texel[1];
+    const double E = form == Form::mix ? texel[1] : texel[0] + texel[1];
+    ASSERT_LE(Fc, E + 1e-7);
+    ASSERT_LE(E, 1 + 1e-7);  // a sum of two floats
+}
+
+TEST(DfgTerms, HoldTheirLimitsInEveryLayout) {
+    for (const Term term : kTerms)
+        for (const std::vector<int>& size : {std::vector{1}, {2}, {5, 3}, {1, 8}})
+            for (const Axis axis : {Axis::nov, Axis::sqrt_nov, Axis::cbrt_nov})
+                for (const RoughnessAxis roughness_axis :
+                     {RoughnessAxis::perceptual, RoughnessAxis::sqrt_perceptual, RoughnessAxis::alpha})
+                    for (const Align align : {Align::center, Align::ends})
+                        for (const Form form : {Form::scale_bias, Form::mix}) {
+                            DfgParams params = defaults();
+                            params.terms = {term};
+                            params.size = size;
+                            params.axis = axis;
+                            params.roughness_axis = roughness_axis;
+                            params.align = align;
+                            params.form = form;
+                            Context context(1, {"draft"});
+                            const Image image = bake(params, {}, context).images[0];
+                            for (int y = 0; y < params.height(); ++y)
+                                for (int x = 0; x < params.width(); ++x) {
+                                    const float* texel = image.texel(0, 0, y, x);
+                                    expect_in_bounds(term, form, {texel, texel + image.channel_count()});
+                                }
+                        }
+}
+
+TEST(DfgTerms, HoldTheirLimitsInLongThinTables) {
+    for (const Term term : kTerms)
+        for (const std::vector<int>& size : {std::vector{1, 512}, {512, 1}}) {
+            DfgParams params = defaults();
+            params.terms = {term};
+            params.size = size;
+            Context context(1, {"draft"});
+            const Image image = bake(params, {}, context).images[0];
+            for (int i = 0; i < 512; ++i) {
+                const float* texel = image.levels[0].texels.data() + i * image.channel_count();
+                expect_in_bounds(term, Form::scale_bias, {texel, texel + image.channel_count()});
+            }
+        }
+}
+
+TEST(DfgTerms, HoldTheirLimitsAtAnyRoughness) {
+    const std::vector<double> across{0, 1e-300, 1e-16, 1e-8, 1e-4, 0.01, 0.5, 1 - 1e-16, 1};
+    for (const Term term : kTerms)
+        for (const double alpha : {0.0, 1e-300, 1e-20, 1e-12, 1e-8, 1e-4, 1.0})
+            for (const char* accuracy : {"draft", "reference"}) {
                 DfgParams params = defaults();
                 params.terms = {term};
-                params.size = size;
-                params.roughness_axis = axis;
-                Context context(1, {"draft"});
-                const Product product = bake(params, {}, context);
-                for (const float value : product.images[0].levels[0].texels) {
-                    EXPECT_TRUE(std::isfinite(value)) << enum_name(term);
-                    EXPECT_GE(value, 0) << enum_name(term);
-                    EXPECT_LE(value, term == Term::charlie ? 2.2f : 1.04f) << enum_name(term);
+                params = settled(params);
+                Context context(1, {accuracy});
+                const pbr::DfgMethod method = method_of(params, context.accuracy());
+                const Columns columns = Row(params, method, std::sqrt(alpha), across, context).evaluate();
+                for (std::size_t i = 0; i < across.size(); ++i) {
+                    std::vector<double> texel;
+                    for (const std::vector<double>& column : columns) texel.push_back(column[i]);
+                    expect_in_bounds(term, params.form, texel);
+                    if (HasFatalFailure()) FAIL() << "alpha " << alpha << ", NoV " << across[i];
                 }
             }
 }

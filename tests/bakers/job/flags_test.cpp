@@ -65,6 +65,8 @@ TEST(Flags, BecomeJson) {
     EXPECT_EQ(param("dfg", "flip-rows", "false", "flip_rows"), false);
     EXPECT_EQ(param("dfg", "accuracy", "draft", "accuracy"), "draft");
     EXPECT_EQ(param("dfg", "accuracy", "1e-3", "accuracy"), (Json{{"max_error", 1e-3}}));
+    EXPECT_EQ(param("dfg", "accuracy", "1e-3:sampled", "accuracy"),
+              (Json{{"max_error", 1e-3}, {"as", "sampled"}}));
     EXPECT_EQ(param("probe", "samples", "32", "samples"), 32);
     EXPECT_EQ(param("probe", "samples", "1,16,32,32,64,64", "samples"), Json::array({1, 16, 32, 32, 64, 64}));
     EXPECT_EQ(param("probe", "rotate-deg", "-30", "rotate_deg"), -30.0);
@@ -83,15 +85,16 @@ TEST(Flags, GoDownTheWayOfAJob) {
 }
 
 TEST(Flags, AreNamedInMistakes) {
-    EXPECT_THAT(
-        mistakes("dfg", {{"size", "big"}, {"terms", "ggx,gx"}, {"seed", "nan"}}),
-        ElementsAre(
-            "--size: found \"big\"; allowed: integer 0 to 4096, or an array of 2 of those",
-            "--terms: found \"gx\"; allowed: \"ggx\", \"disney_diffuse\", \"multiscatter\", "
-            "\"charlie\", \"clear_coat\", \"uncorrelated\", \"eon\", \"subsurface\"; did you mean \"ggx\"?",
-            "--seed: found \"nan\"; allowed: integer 0 to 2^53 - 1"));
+    EXPECT_THAT(mistakes("dfg", {{"size", "big"}, {"terms", "ggx,gx"}, {"seed", "nan"}}),
+                ElementsAre("--size: found \"big\"; allowed: integer 0 to 4096, or an array of 2 of those",
+                            "--terms: found \"gx\"; allowed: \"ggx\", \"disney_diffuse\", \"multiscatter\", "
+                            "\"charlie\", \"clear_coat\", \"uncorrelated\", \"eon\", \"chan\", \"hammon\", "
+                            "\"subsurface\"; did you mean \"ggx\"?",
+                            "--seed: found \"nan\"; allowed: integer 0 to 2^53 - 1"));
     EXPECT_THAT(mistakes("dfg", {{"max-side", "0"}}),
                 ElementsAre("--max-side: found 0; allowed: integer 1 to 1048576"));
+    EXPECT_THAT(mistakes("dfg", {{"accuracy", "1e-3:sampeld"}}),
+                ElementsAre(testing::HasSubstr("--accuracy: found \"1e-3:sampeld\"")));
     EXPECT_THAT(mistakes("dfg", {{"accuracy", "-1"}}),
                 ElementsAre("--accuracy: found -1.0; allowed: number above 0"));
     EXPECT_THAT(mistakes("probe", {}), ElementsAre(StartsWith("SOURCE: missing")));

@@ -11,23 +11,23 @@
 namespace pbr {
 namespace {
 
-double albedo_hammon(double rho, double NoV, double alpha) {
+double swept_albedo(double rho, double NoV, double alpha) {
     return reflection_albedo_fixed(
         [&](const Reflection<double>& r) { return f_hammon(rho, r.NoL, r.NoV, r.NoH, r.LoV, alpha); }, NoV);
 }
 
 TEST(HammonDiffuse, HasTheAlbedosStated) {
-    EXPECT_NEAR(albedo_hammon(1, 0, 0), 0, 1e-12);
-    EXPECT_NEAR(albedo_hammon(1, 0, 1), 1.181, 1e-3);
+    EXPECT_NEAR(swept_albedo(1, 0, 0), 0, 1e-12);
+    EXPECT_NEAR(swept_albedo(1, 0, 1), 1.181, 1e-3);
     double most = 0;
     for (double alpha = 0; alpha <= 1; alpha += .125)
-        for (const double NoV : {0.0, .05, .2, .5, 1.0}) most = std::max(most, albedo_hammon(1, NoV, alpha));
+        for (const double NoV : {0.0, .05, .2, .5, 1.0}) most = std::max(most, swept_albedo(1, NoV, alpha));
     EXPECT_LE(most, 1.1815);
     const QuadratureRule rule = gauss_legendre(6);
     const auto mean = [&](double alpha) {
         double sum = 0;
         for (int i = 0; i < rule.size(); ++i)
-            sum += 2 * rule.weights[i] * rule.nodes[i] * albedo_hammon(1, rule.nodes[i], alpha);
+            sum += 2 * rule.weights[i] * rule.nodes[i] * swept_albedo(1, rule.nodes[i], alpha);
         return sum;
     };
     EXPECT_NEAR(mean(0), 20.0 / 21, 1e-5);
@@ -38,11 +38,29 @@ TEST(HammonDiffuse, HasTheAlbedosStated) {
     }
 }
 
+TEST(HammonDiffuse, AlbedoAgreesWithAdaptiveIntegration) {
+    for (const auto& [alpha, NoV] : {std::pair{0.0, .3}, {.01, .1}, {.3, .6}, {1.0, .1}, {1.0, 1.0}})
+        for (const double rho : {1.0, .5})
+            EXPECT_NEAR(
+                rho * (albedo_hammon_single(NoV, alpha) + rho * kHammonMultipleAlbedo<double> * alpha),
+                reflection_albedo(
+                    [&](const Reflection<double>& r) {
+                        return f_hammon(rho, r.NoL, r.NoV, r.NoH, r.LoV, alpha);
+                    },
+                    NoV, 1e-10),
+                1e-8)
+                << alpha << " " << NoV;
+    for (const double alpha : {0.0, 1e-3, .5, 1.0})
+        for (const double NoV : {0.0, 1e-6, 1e-4, .02})
+            EXPECT_NEAR(albedo_hammon_single(NoV, alpha) + kHammonMultipleAlbedo<double> * alpha,
+                        swept_albedo(1, NoV, alpha), 1e-5);
+}
+
 TEST(HammonDiffuse, SmoothSurfaceIsShirleys) {
     // 1.05 (1 - (1 - NoL)^5)(1 - (1 - NoV)^5): the mean over NoL of the second factor is 20/21, so that 1.05
     // = 21/20.
     for (const double NoV : {.1, .5, 1.0})
-        EXPECT_NEAR(albedo_hammon(1, NoV, 0), 1 - std::pow(1 - NoV, 5), 1e-6) << NoV;
+        EXPECT_NEAR(swept_albedo(1, NoV, 0), 1 - std::pow(1 - NoV, 5), 1e-6) << NoV;
 }
 
 TEST(HammonDiffuse, MultipleScatteringIsQuadraticInTheColour) {

@@ -9,6 +9,7 @@
 // <= 1. Limits: alpha = 0 is the mirror, E = 1 and Fc = (1 - NoV)^5; NoV = 0 at alpha > 0 gives E = 1; the
 // two limits do not commute (along NoV = alpha -> 0, E tends to .89).
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -21,14 +22,24 @@ struct DirectionalAlbedo {
     double Fc;
 };
 
-/// Nodes of the product quadrature: over the azimuth of the half vector, and radially up to the horizon.
+/// Nodes of the product quadrature. The nearer to the horizon a view is, the more it needs.
 struct DfgRule {
-    QuadratureRule azimuth;
-    QuadratureRule radial;
+    /// The rules of views from `lowest_NoV` up to the next band's.
+    struct Band {
+        double lowest_NoV;
+        QuadratureRule azimuth;  ///< over the azimuth of the half vector
+        QuadratureRule radial;   ///< from the normal up to the horizon
+    };
+    std::array<Band, 4> bands;  ///< ascending, the first from 0
     double max_error;  ///< largest error of E and Fc over NoV in [0, 1] and alpha in [1e-8, 1], and alpha = 0
 
-    /// Evaluations of the integrand a table entry costs.
-    int evaluations() const { return azimuth.size() * radial.size(); }
+    /// The band that a view in [0, 1] belongs to.
+    const Band& band_of(double NoV) const;
+    /// Evaluations of the integrand that a view costs.
+    int evaluations(double NoV) const {
+        const Band& band = band_of(NoV);
+        return band.azimuth.size() * band.radial.size();
+    }
 };
 
 /// The cheapest rule whose error is at most `max_error`; below 1e-8 the one of 1e-8. max_error > 0.
@@ -65,8 +76,10 @@ struct DfgMethod {
         method.visibility = other;
         return method;
     }
-    /// Evaluations of the integrand a table entry costs.
-    int evaluations() const { return estimator == DfgEstimator::quadrature ? rule.evaluations() : samples; }
+    /// Evaluations of the integrand that a view costs at alpha > 0.
+    int evaluations(double NoV) const {
+        return estimator == DfgEstimator::quadrature ? rule.evaluations(NoV) : samples;
+    }
 };
 
 /// E and Fc of many views at one alpha. NoV in [0, 1], alpha in [0, 1]; the spans have equal sizes.
