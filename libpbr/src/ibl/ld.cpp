@@ -1,6 +1,7 @@
 #include "pbr/ibl/ld.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -12,15 +13,11 @@
 
 namespace pbr {
 
-CubePyramid::CubePyramid(std::span<const float> rgb, int size) : size_(size) {
+CubePyramid::CubePyramid(std::span<const float> rgb, int size)
+    : size_(size), levels_(std::bit_width(static_cast<unsigned>(size))) {
     assert(size > 0 && size <= 4096 && (size & (size - 1)) == 0 &&
            rgb.size() == static_cast<std::size_t>(size) * size * 18);
-    std::size_t total = 0;
-    for (int n = size; n >= 1; n /= 2) {
-        offsets_.push_back(static_cast<std::int32_t>(total));
-        total += static_cast<std::size_t>(n + 2) * (n + 2) * 24;
-    }
-    texels_.resize(total);
+    texels_.resize(static_cast<std::size_t>(offset(-1)));  // where a finer level would begin
     const auto at = [&](int level, int f, int x, int y) {
         return const_cast<float*>(face(level, f)) +
                ((static_cast<std::size_t>(y) + 1) * (size_of(level) + 2) + x + 1) * 4;
@@ -53,7 +50,7 @@ CubePyramid::CubePyramid(std::span<const float> rgb, int size) : size_(size) {
 
 const float* CubePyramid::face(int level, int face) const {
     const std::size_t side = static_cast<std::size_t>(size_of(level)) + 2;
-    return texels_.data() + static_cast<std::size_t>(offsets_[level]) + face * side * side * 4;
+    return texels_.data() + static_cast<std::size_t>(offset(level)) + face * side * side * 4;
 }
 
 void CubePyramid::fill_border(int level) {

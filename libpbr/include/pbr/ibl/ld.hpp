@@ -24,7 +24,7 @@ enum class LdEstimator { importance_sampling, filtered_importance_sampling, exac
 
 /// A cube map with its mip chain down to 1 x 1, laid out for filtered lookups: RGBA floats, each face with a
 /// border of one texel copied from its neighbours (at corners the mean of the three that meet), so that no
-/// lookup branches at an edge.
+/// lookup branches at an edge. The coarsest level lies first in memory.
 class CubePyramid {
   public:
     /// From faces of a power-of-two size, at most 4096. Levels are means weighted by solid angle, so that
@@ -34,15 +34,19 @@ class CubePyramid {
     /// Texels a side of level 0.
     int size() const { return size_; }
     /// Levels down to 1 x 1.
-    int levels() const { return static_cast<int>(offsets_.size()); }
+    int levels() const { return levels_; }
     /// Padded face: rows of (size_of(level) + 2) RGBA texels.
     const float* face(int level, int face) const;
     /// Texels a side of a level, without borders.
     int size_of(int level) const { return size_ >> level; }
     /// All levels; what offset() counts in.
     const std::vector<float>& texels() const { return texels_; }
-    /// Where a level begins in texels(): its padded face 0.
-    std::int32_t offset(int level) const { return offsets_[level]; }
+    /// Where a level begins in texels(), its padded face 0. Of n texels a side it begins 2 n^2 + 48 n texels
+    /// from an origin: 6 n^2 + 48 n before the next finer one, which is room enough for 6 (n + 2)^2.
+    std::int32_t offset(int level) const {
+        const int n = 1 << (levels_ - 1 - level);
+        return 4 * (2 * n * n + 48 * n - 50);
+    }
 
     /// Bilinear within a level, linear between; `lod` is clamped to the chain. Direction of any length but 0.
     /// The scalar twin of the kernel's fetch.
@@ -50,8 +54,7 @@ class CubePyramid {
 
   private:
     void fill_border(int level);
-    int size_;
-    std::vector<std::int32_t> offsets_;
+    int size_, levels_;
     std::vector<float> texels_;
 };
 
@@ -73,7 +76,7 @@ LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int ba
 /// Texels of a level of `size` by sampling: the unweighted mean over samples (their density is the whole
 /// lobe, NoL included, so a constant environment has no variance). `rgb_out` holds 3 floats a texel. Bits do
 /// not depend on the vector width, nor on which texels are asked for together: each turns the samples by a
-/// hash of (seed, size, texel).
+/// hash of (seed, size, texel). The pyramid has at least two levels.
 void ld_sampled(const CubePyramid& pyramid, const LdSamples& samples, std::uint64_t seed, int size,
                 std::span<const CubeTexel> texels, std::span<float> rgb_out);
 
