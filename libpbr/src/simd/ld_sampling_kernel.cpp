@@ -184,18 +184,6 @@ namespace {
 
 HWY_EXPORT(sampled_texel);
 
-/// A right-handed frame about n, turned by `turns` about it (Duff et al. 2017, "Building an orthonormal
-/// basis, revisited").
-TexelFrame frame_about(const glm::dvec3& n, double turns) {
-    const double sign = n.z < 0 ? -1 : 1;
-    const double a = -1 / (sign + n.z), b = n.x * n.y * a;
-    const glm::dvec3 t(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), u(b, sign + n.y * n.y * a, -n.y);
-    const SinCos turn = sin_cos_pi(2 * turns);
-    const glm::dvec3 x = t * turn.cos + u * turn.sin, y = u * turn.cos - t * turn.sin;
-    const auto f = [](double value) { return static_cast<float>(value); };
-    return {f(x.x), f(x.y), f(x.z), f(y.x), f(y.y), f(y.z), f(n.x), f(n.y), f(n.z)};
-}
-
 }  // namespace
 
 void ld_sampled(const CubePyramid& pyramid, const LdSamples& samples, std::uint64_t seed, int size,
@@ -204,7 +192,7 @@ void ld_sampled(const CubePyramid& pyramid, const LdSamples& samples, std::uint6
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const auto& [face, x, y] = texels[i];
         const double turns = random_unit(seed, size, face, x, y);
-        const TexelFrame frame = frame_about(cubemap_texel_direction(texels[i], size), turns);
+        const TexelFrame frame = turned_frame(cubemap_texel_direction(texels[i], size), turns);
         HWY_DYNAMIC_DISPATCH(sampled_texel)(pyramid, samples, frame, &rgb_out[i * 3]);
     }
 }
