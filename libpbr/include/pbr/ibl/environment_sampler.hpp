@@ -47,8 +47,9 @@ class EnvironmentSampler {
     /// multiplied by (1 + s^2 + t^2)^1.5, which is density per area of a face of half side 1.
     const std::vector<float>& texels() const { return texels_; }
 
-    /// Texels along a row, and rows of all faces together.
+    /// Texels along a row.
     int columns() const { return columns_; }
+    /// Rows of all faces together.
     int rows() const { return rows_; }
     /// True of cube maps.
     bool is_cube() const { return is_cube_; }
