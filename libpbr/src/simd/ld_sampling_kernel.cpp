@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "pbr/ibl/cubemap.hpp"
@@ -171,7 +172,8 @@ void sampled_texel(const CubePyramid& pyramid, const LdSamples& samples, const T
         }
         fetch(pyramid.texels().data(), fetches, count, sum);
     }
-    std::copy_n(sum, 3, rgb);
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    for (int c = 0; c < 3; ++c) rgb[c] = std::min(sum[c] / sum[3], kLargest);  // see ibl/cube_pyramid.hpp
 }
 
 }  // namespace HWY_NAMESPACE

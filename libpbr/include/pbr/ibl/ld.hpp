@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "pbr/ibl/cube_pyramid.hpp"
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/ibl/patches.hpp"
@@ -21,42 +22,6 @@
 namespace pbr {
 
 enum class LdEstimator { importance_sampling, filtered_importance_sampling, exact };
-
-/// A cube map with its mip chain down to 1 x 1, laid out for filtered lookups: RGBA floats, each face with a
-/// border of one texel copied from its neighbours (at corners the mean of the three that meet), so that no
-/// lookup branches at an edge. The coarsest level lies first in memory.
-class CubePyramid {
-  public:
-    /// From faces of a power-of-two size, at most 4096. Levels are means weighted by solid angle, so that
-    /// each holds the same flux.
-    CubePyramid(std::span<const float> rgb, int size);
-
-    /// Texels a side of level 0.
-    int size() const { return size_; }
-    /// Levels down to 1 x 1.
-    int levels() const { return levels_; }
-    /// Padded face: rows of (size_of(level) + 2) RGBA texels.
-    const float* face(int level, int face) const;
-    /// Texels a side of a level, without borders.
-    int size_of(int level) const { return size_ >> level; }
-    /// All levels; what offset() counts in.
-    const std::vector<float>& texels() const { return texels_; }
-    /// Where a level begins in texels(), its padded face 0. Of n texels a side it begins 2 n^2 + 48 n texels
-    /// from an origin: 6 n^2 + 48 n before the next finer one, which is room enough for 6 (n + 2)^2.
-    std::int32_t offset(int level) const {
-        const int n = 1 << (levels_ - 1 - level);
-        return 4 * (2 * n * n + 48 * n - 50);
-    }
-
-    /// Bilinear within a level, linear between; `lod` is clamped to the chain. Direction of any length but 0.
-    /// The scalar twin of the kernel's fetch.
-    glm::vec3 sample(const glm::vec3& direction, float lod) const;
-
-  private:
-    void fill_border(int level);
-    int size_, levels_;
-    std::vector<float> texels_;
-};
 
 /// Sample directions of one level, shared by its texels and turned about each texel's normal by a hash. The
 /// arrays are padded to a multiple of 16 beyond `count`.
