@@ -1,6 +1,7 @@
 #include "pbr/ibl/ld.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -12,29 +13,43 @@
 
 namespace pbr {
 
+void LdSamples::add(const glm::dvec3& direction, double lod, int levels, double weight) {
+    assert(levels >= 2);
+    const double level = std::clamp(lod, 0.0, levels - 1.0);
+    const int first = std::min(static_cast<int>(level), levels - 2);
+    const double of_coarser = (level - first) * weight;
+    ++count;
+    x.push_back(static_cast<float>(direction.x));
+    y.push_back(static_cast<float>(direction.y));
+    z.push_back(static_cast<float>(direction.z));
+    half_size.push_back(static_cast<float>(1 << (levels - 2 - first)));
+    finer.push_back(static_cast<float>(weight - of_coarser));
+    coarser.push_back(static_cast<float>(of_coarser));
+}
+
+void LdSamples::pad() {
+    const std::size_t padded = (static_cast<std::size_t>(count) + 15) / 16 * 16;
+    for (std::vector<float>* array : {&x, &y, &z, &half_size, &finer, &coarser})
+        array->resize(padded, array->back());
+}
+
 LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int base_size, double level_bias) {
     const GgxZonalKernel kernel(alpha);
+    const double texel_angle = 4 * std::numbers::pi / (6.0 * base_size * base_size);
+    const int levels = std::bit_width(static_cast<unsigned>(base_size));
     LdSamples samples;
-    samples.count = count;
     for (int i = 0; i < count; ++i) {
         const Sample2 u = hammersley(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(count));
         const double one_minus_mu = kernel.sample(u.u1);
         const double sine = std::sqrt(one_minus_mu * (2 - one_minus_mu));
         const SinCos azimuth = sin_cos_pi(2 * u.u2);
-        samples.x.push_back(static_cast<float>(sine * azimuth.cos));
-        samples.y.push_back(static_cast<float>(sine * azimuth.sin));
-        samples.z.push_back(static_cast<float>(1 - one_minus_mu));
-        double lod = -2;  // plain sampling: below 0 even with the kernel's correction of at most 3/4 log2(3)
-        if (estimator == LdEstimator::filtered_importance_sampling) {
-            const double sample_angle = 1 / (count * std::max(kernel.value(one_minus_mu), 1e-30));
-            const double texel_angle = 4.0 / (static_cast<double>(base_size) * base_size);
-            lod = log2_exact(level_bias * sample_angle / texel_angle) / 2;
-        }
-        samples.lod.push_back(static_cast<float>(lod));
+        const double sample_angle = 1 / (count * std::max(kernel.value(one_minus_mu), 1e-30));
+        const double lod = estimator == LdEstimator::filtered_importance_sampling
+                               ? log2_exact(level_bias * sample_angle / texel_angle) / 2
+                               : 0;
+        samples.add({sine * azimuth.cos, sine * azimuth.sin, 1 - one_minus_mu}, lod, levels, 1.0 / count);
     }
-    const std::size_t padded = (static_cast<std::size_t>(count) + 15) / 16 * 16;
-    for (std::vector<float>* array : {&samples.x, &samples.y, &samples.z, &samples.lod})
-        array->resize(padded, array->back());
+    samples.pad();
     return samples;
 }
 

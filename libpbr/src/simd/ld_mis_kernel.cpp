@@ -11,6 +11,7 @@
 
 #include "pbr/ibl/environment_sampler.hpp"
 #include "pbr/ibl/ld_mis.hpp"
+#include "src/simd/cube_face.hpp"
 #include "src/simd/ld_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -72,19 +73,8 @@ HWY_INLINE void cube_places(D d, const EnvironmentSampler& environment, V x, V y
                             Places& out) {
     const hn::Rebind<std::int32_t, D> di;
     const V one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
-    const V ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
-    const auto x_major = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
-    const auto y_major = hn::AndNot(x_major, hn::Ge(ay, az));
-    const V major = hn::IfThenElse(x_major, x, hn::IfThenElse(y_major, y, z));
-    const V sign = hn::And(major, hn::SignBit(d)), inverse = hn::Div(one, hn::Abs(major));
-    // s, t of ibl/cubemap.hpp: X (-+z, -y), Y (x, +-z), Z (+-x, -y).
-    const V s_of_x_or_z = hn::Xor(sign, hn::IfThenElse(x_major, hn::Neg(z), x));
-    const V s = hn::Mul(hn::IfThenElse(y_major, x, s_of_x_or_z), inverse);
-    const V t = hn::Mul(hn::IfThenElse(y_major, hn::Xor(sign, z), hn::Neg(y)), inverse);
+    const auto [face, s, t, inverse] = face_point(d, x, y, z);
     const int n = environment.columns();
-    const V pair =
-        hn::IfThenElse(x_major, hn::Zero(d), hn::IfThenElse(y_major, hn::Set(d, 2.0f), hn::Set(d, 4.0f)));
-    const V face = hn::Add(pair, hn::IfThenElse(hn::Lt(major, hn::Zero(d)), one, hn::Zero(d)));
     const auto first_row = hn::ConvertTo(di, hn::Mul(face, hn::Set(d, static_cast<float>(n))));
     hn::Store(index_of(d, hn::Mul(hn::Add(s, one), half), n), di, out.column + at);
     hn::Store(hn::Add(first_row, index_of(d, hn::Mul(hn::Add(t, one), half), n)), di, out.row + at);

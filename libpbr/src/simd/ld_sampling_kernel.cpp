@@ -18,6 +18,7 @@
 #include "pbr/ibl/ld.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/sequence.hpp"
+#include "src/simd/cube_face.hpp"
 #include "src/simd/ld_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,51 +33,23 @@ constexpr int kChunk =
 struct Fetches {
     HWY_ALIGN_MAX std::int32_t upper[2][kChunk];  ///< the left texel of the block's upper row, in floats
     HWY_ALIGN_MAX std::int32_t lower[2][kChunk];  ///< and of its lower row
-    HWY_ALIGN_MAX float weights[2][kChunk * 4];   ///< upper left, upper right, lower left, lower right. All
-                                                  ///< samples' sum to 1, so huge texels don't overflow
+    HWY_ALIGN_MAX float weights[2][kChunk * 4];   ///< upper left, upper right, lower left, lower right
 };
 
-/// 1.5 log2(r): the polynomial through the Chebyshev points of [1, sqrt(3)], off by at most 5.2e-5 there. It
-/// only chooses a filter.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V log2_times_three_halves(D d, V r) {
-    V sum = hn::Set(d, -0.16519631f);
-    for (const float c : {1.2017005f, -3.6546170f, 6.5253992f, -3.9072349f})
-        sum = hn::Add(hn::Mul(sum, r), hn::Set(d, c));
-    return sum;
-}
+/// What a vector of samples reads: see LdSamples.
+template <class V>
+struct Levels {
+    V half_size, finer, coarser;
+};
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE void address(D d, const CubePyramid& pyramid, V x, V y, V z, V lod, float share, int at,
-                        Fetches& out) {
+HWY_INLINE void address(D d, V x, V y, V z, const Levels<V>& levels, int at, Fetches& out) {
     const hn::Rebind<std::int32_t, D> di;
-    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
-    const V ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
-    const auto x_major = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
-    const auto y_major = hn::AndNot(x_major, hn::Ge(ay, az));
-    const V major = hn::IfThenElse(x_major, x, hn::IfThenElse(y_major, y, z));
-    const V sign = hn::And(major, hn::SignBit(d));
-    const V inverse = hn::Div(one, hn::Abs(major));
-    // s, t of ibl/cubemap.hpp: X (-+z, -y), Y (x, +-z), Z (+-x, -y).
-    const V s_of_x_or_z = hn::Xor(sign, hn::IfThenElse(x_major, hn::Neg(z), x));
-    const V s = hn::Mul(hn::IfThenElse(y_major, x, s_of_x_or_z), inverse);
-    const V t = hn::Mul(hn::IfThenElse(y_major, hn::Xor(sign, z), hn::Neg(y)), inverse);
-    const V face_pair =
-        hn::IfThenElse(x_major, zero, hn::IfThenElse(y_major, hn::Set(d, 2.0f), hn::Set(d, 4.0f)));
-    const V face = hn::Add(face_pair, hn::IfThenElse(hn::Lt(major, zero), one, zero));
-
-    // Texels shrink towards the corners like q^-3/2, q = 1 + s^2 + t^2 = 1 / major^2: lod += 3/4 log2(q).
-    const int coarsest = pyramid.levels() - 1;
-    const V level = hn::Min(hn::Max(hn::Add(lod, log2_times_three_halves(d, inverse)), zero),
-                            hn::Set(d, static_cast<float>(coarsest)));
-    const auto first = hn::Min(hn::ConvertTo(di, level), hn::Set(di, coarsest - 1));
-    const V blend = hn::Mul(hn::Sub(level, hn::ConvertTo(d, first)), hn::Set(d, share));
-
-    // Half the finer level's texels a side, a power of two, from its exponent bits.
-    V half_n = hn::BitCast(d, hn::ShiftLeft<23>(hn::Sub(hn::Set(di, coarsest + 126), first)));
+    const V one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
+    const auto [face, s, t, inverse_major] = face_point(d, x, y, z);
+    V half_n = levels.half_size, weight = levels.finer;
     V px = hn::Add(hn::Mul(hn::Add(s, one), half_n), half),
       py = hn::Add(hn::Mul(hn::Add(t, one), half_n), half);
-    V weight = hn::Sub(hn::Set(d, share), blend);
     for (int k = 0; k < 2; ++k) {
         const auto ix = hn::ConvertTo(di, px), iy = hn::ConvertTo(di, py);
         const V row = hn::ConvertTo(d, iy), fx = hn::Sub(px, hn::ConvertTo(d, ix)), fy = hn::Sub(py, row);
@@ -97,7 +70,7 @@ HWY_INLINE void address(D d, const CubePyramid& pyramid, V x, V y, V z, V lod, f
         half_n = hn::Mul(half_n, half);
         px = hn::Add(hn::Mul(px, half), hn::Set(d, 0.25f));
         py = hn::Add(hn::Mul(py, half), hn::Set(d, 0.25f));
-        weight = blend;
+        weight = levels.coarser;
     }
 }
 
@@ -156,7 +129,6 @@ void sampled_texel(const CubePyramid& pyramid, const LdSamples& samples, const T
     const int lanes = static_cast<int>(hn::Lanes(d));
     Fetches fetches;
     float sum[4] = {0, 0, 0, 0};
-    const float share = 1.0f / static_cast<float>(samples.count);
     const auto combine = [&](V x, V y, V z, float cx, float cy, float cz) {
         return hn::Add(hn::Add(hn::Mul(x, hn::Set(d, cx)), hn::Mul(y, hn::Set(d, cy))),
                        hn::Mul(z, hn::Set(d, cz)));
@@ -166,9 +138,11 @@ void sampled_texel(const CubePyramid& pyramid, const LdSamples& samples, const T
         for (int i = 0; i < count; i += lanes) {  // the arrays are padded: whole vectors always
             const V x = hn::LoadU(d, &samples.x[begin + i]), y = hn::LoadU(d, &samples.y[begin + i]);
             const V z = hn::LoadU(d, &samples.z[begin + i]);
-            address(d, pyramid, combine(x, y, z, m.tx, m.bx, m.nx), combine(x, y, z, m.ty, m.by, m.ny),
-                    combine(x, y, z, m.tz, m.bz, m.nz), hn::LoadU(d, &samples.lod[begin + i]), share, i,
-                    fetches);
+            const Levels<V> levels{hn::LoadU(d, &samples.half_size[begin + i]),
+                                   hn::LoadU(d, &samples.finer[begin + i]),
+                                   hn::LoadU(d, &samples.coarser[begin + i])};
+            address(d, combine(x, y, z, m.tx, m.bx, m.nx), combine(x, y, z, m.ty, m.by, m.ny),
+                    combine(x, y, z, m.tz, m.bz, m.nz), levels, i, fetches);
         }
         fetch(pyramid.texels().data(), fetches, count, sum);
     }
