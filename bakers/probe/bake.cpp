@@ -75,11 +75,11 @@ std::vector<Mistake> check(const ProbeParams& params, const std::string& format)
         mistakes.push_back({"/samples", "found " + std::to_string(params.samples.size()) +
                                             " counts; allowed: one for all levels, or one a level (" +
                                             std::to_string(levels) + ")"});
-    const bool samples = params.integrator == Integrator::is || params.integrator == Integrator::fis ||
-                         params.integrator == Integrator::automatic;
+    const bool samples =
+        params.integrator != Integrator::harmonic && params.integrator != Integrator::reference;
     if (!samples && params.samples != std::vector<int>{0})
         mistakes.push_back({"/samples", "found with integrator " + std::string(enum_name(params.integrator)) +
-                                            "; allowed: with is, fis or auto"});
+                                            "; allowed: with is, mis, fis or auto"});
     return mistakes;
 }
 

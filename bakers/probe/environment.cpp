@@ -62,6 +62,10 @@ pbr::PatchBlocks Environment::blocks() const {
     return is_cube() ? pbr::PatchBlocks(cube_) : pbr::PatchBlocks(equirect_);
 }
 
+pbr::EnvironmentSampler Environment::sampler() const {
+    return is_cube() ? pbr::EnvironmentSampler(cube_) : pbr::EnvironmentSampler(equirect_);
+}
+
 pbr::LdHarmonic Environment::harmonic(double smallest_alpha, double max_error,
                                       const pbr::ForEach& each) const {
     return is_cube() ? pbr::LdHarmonic(cube_, smallest_alpha, max_error, each)

@@ -8,6 +8,7 @@
 #include "bakers/image.hpp"
 #include "bakers/probe/params.hpp"
 #include "pbr/ibl/environment.hpp"
+#include "pbr/ibl/environment_sampler.hpp"
 #include "pbr/ibl/ld_harmonic.hpp"
 #include "pbr/ibl/patches.hpp"
 
@@ -25,6 +26,9 @@ class Environment {
     int equivalent_size() const;
 
     pbr::PatchBlocks blocks() const;
+
+    /// What draws directions where it is bright.
+    pbr::EnvironmentSampler sampler() const;
 
     /// Its transform for lobes of alpha >= smallest_alpha.
     pbr::LdHarmonic harmonic(double smallest_alpha, double max_error, const pbr::ForEach& each) const;

@@ -10,6 +10,7 @@
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/ld.hpp"
 #include "pbr/ibl/ld_harmonic.hpp"
+#include "pbr/ibl/ld_mis.hpp"
 
 namespace pbrbake::probe {
 namespace {
@@ -75,23 +76,44 @@ pbr::CubePyramid make_pyramid(const ProbeParams& params, const Environment& envi
     return {resampled.texels, base};
 }
 
-Json sample_levels(const ProbeParams& params, const Method& method, const Environment& environment,
-                   Context& context, Image& image) {
-    const pbr::CubePyramid pyramid = make_pyramid(params, environment, image.levels[0], context);
+/// Work of a sample, in texels copied.
+constexpr double kWorkOfSample = 0.01;
+
+/// Fills all levels by sampling; `filter_of(samples, alpha)` makes each level's filter.
+template <class FilterOf>
+Json sampled_levels(const ProbeParams& params, Context& context, Image& image, const FilterOf& filter_of) {
     Json notes = Json::array();
-    fill_levels(params, samples_of_level(params, context.accuracy(), 1) * 0.01, context, image,
+    fill_levels(params, samples_of_level(params, context.accuracy(), 1) * kWorkOfSample, context, image,
                 [&](int l, double alpha) {
-                    const pbr::LdMethod ld{
-                        method.integrator == Integrator::is ? pbr::LdEstimator::importance_sampling
-                                                            : pbr::LdEstimator::filtered_importance_sampling,
-                        samples_of_level(params, context.accuracy(), l), params.level_bias, params.seed};
-                    notes.push_back({{"samples", ld.samples}});
-                    return [integrator = pbr::LdIntegrator(ld, alpha, nullptr, &pyramid)](
+                    const int samples = samples_of_level(params, context.accuracy(), l);
+                    notes.push_back({{"samples", samples}});
+                    return [integrator = filter_of(samples, alpha)](
                                int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb) {
                         return integrator.integrate(size, texels, rgb);
                     };
                 });
     return notes;
+}
+
+/// Plain or filtered samples of a pyramid.
+Json sample_levels(const ProbeParams& params, const Method& method, const Environment& environment,
+                   Context& context, Image& image) {
+    const pbr::CubePyramid pyramid = make_pyramid(params, environment, image.levels[0], context);
+    const auto estimator = method.integrator == Integrator::is
+                               ? pbr::LdEstimator::importance_sampling
+                               : pbr::LdEstimator::filtered_importance_sampling;
+    return sampled_levels(params, context, image, [&](int samples, double alpha) {
+        return pbr::LdIntegrator({estimator, samples, params.level_bias, params.seed}, alpha, nullptr,
+                                 &pyramid);
+    });
+}
+
+/// Samples of lobe and light together.
+Json mis_levels(const ProbeParams& params, const Environment& environment, Context& context, Image& image) {
+    const pbr::EnvironmentSampler sampler = environment.sampler();
+    return sampled_levels(params, context, image, [&](int samples, double alpha) {
+        return pbr::LdMis(sampler, alpha, samples, params.seed);
+    });
 }
 
 Json sum_levels(const ProbeParams& params, const Environment& environment, Context& context, Image& image) {
@@ -153,6 +175,8 @@ Json filter_levels(const ProbeParams& params, const Method& method, const Enviro
             return solve_levels(params, method, environment, context, image);
         case Integrator::reference:
             return sum_levels(params, environment, context, image);
+        case Integrator::mis:
+            return mis_levels(params, environment, context, image);
         default:
             return sample_levels(params, method, environment, context, image);
     }

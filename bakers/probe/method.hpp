@@ -22,7 +22,7 @@ double error_asked(const Accuracy& accuracy);
 /// The method of a job on a machine of any kind: it depends on nothing else.
 Method method_of(const ProbeParams& params, const Accuracy& accuracy);
 
-/// Samples a texel of a level for `is` and `fis`: the job's, or those that usually reach the accuracy.
+/// Samples a texel of a level for `is`, `mis` and `fis`: the job's, or those that usually reach the accuracy.
 int samples_of_level(const ProbeParams& params, const Accuracy& accuracy, int level);
 
 }  // namespace pbrbake::probe

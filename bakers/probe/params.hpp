@@ -11,7 +11,7 @@
 namespace pbrbake {
 namespace probe {
 
-enum class Integrator { automatic, is, fis, harmonic, reference };
+enum class Integrator { automatic, is, mis, fis, harmonic, reference };
 enum class Up { y, z };
 enum class Units { automatic, relative, cd_per_m2 };
 
@@ -52,7 +52,8 @@ struct ProbeParams {
 
 template <>
 struct EnumNames<probe::Integrator> {
-    static constexpr std::array<std::string_view, 5> names{"auto", "is", "fis", "harmonic", "reference"};
+    static constexpr std::array<std::string_view, 6> names{"auto", "is",       "mis",
+                                                           "fis",  "harmonic", "reference"};
 };
 template <>
 struct EnumNames<probe::Up> {

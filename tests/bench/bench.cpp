@@ -10,6 +10,7 @@
 #include "pbr/ibl/dfg.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/ibl/ld.hpp"
+#include "pbr/ibl/ld_mis.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace {
@@ -91,6 +92,33 @@ void LdSampledLevel(benchmark::State& state) {
         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(LdSampledLevel)->Arg(32)->Arg(1024);
+
+/// The same level by multiple importance sampling of a 512 x 256 picture, and the making of its samples.
+void LdMisLevel(benchmark::State& state) {
+    const std::vector<float> picture = noise(std::size_t{512} * 256 * 3);
+    const pbr::EnvironmentSampler sampler(pbr::EquirectView{picture.data(), 512, 256});
+    const pbr::LdMis mis(sampler, 0.04, static_cast<int>(state.range(0)), 0);
+    std::vector<float> row(128 * 3);
+    std::vector<pbr::CubeTexel> texels(128);
+    int at = 0;
+    for (auto _ : state) {
+        for (int x = 0; x < 128; ++x) texels[x] = {at / 128 % 6, x, at % 128};
+        mis.integrate(128, texels, row);
+        benchmark::DoNotOptimize(row.data());
+        ++at;
+    }
+    state.counters["time/sample"] = benchmark::Counter(
+        static_cast<double>(state.iterations()) * 128 * static_cast<double>(state.range(0)),
+        benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(LdMisLevel)->Arg(32)->Arg(1024);
+
+void LdMisSamples(benchmark::State& state) {
+    const std::vector<float> picture = noise(std::size_t{512} * 256 * 3);
+    const pbr::EnvironmentSampler sampler(pbr::EquirectView{picture.data(), 512, 256});
+    for (auto _ : state) pbr::LdMis(sampler, 0.04, static_cast<int>(state.range(0)), 0);
+}
+BENCHMARK(LdMisSamples)->Arg(32)->Arg(1024)->Unit(benchmark::kMillisecond);
 
 /// The exact sum over a 512 x 256 picture for a row of 128 directions; range(0) thousandths of alpha.
 void LdExactRow(benchmark::State& state) {

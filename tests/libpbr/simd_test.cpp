@@ -11,6 +11,7 @@
 #include "pbr/ibl/harmonic_filter.hpp"
 #include "pbr/ibl/ld.hpp"
 #include "pbr/ibl/ld_harmonic.hpp"
+#include "pbr/ibl/ld_mis.hpp"
 #include "pbr/ibl/near_field.hpp"
 #include "pbr/numerics/sequence.hpp"
 
@@ -32,7 +33,7 @@ class OneTarget {
 
 struct Results {
     std::vector<double> dfg, exact, near, bright, spectrum;
-    std::vector<float> sampled, harmonic;
+    std::vector<float> sampled, mis, harmonic;
     bool operator==(const Results&) const = default;
 };
 
@@ -61,6 +62,14 @@ Results run_kernels() {
                    8, texels, rgb);
         results.sampled.insert(results.sampled.end(), rgb.begin(), rgb.end());
     }
+    const EnvironmentSampler of_cube(CubeView{cube.data(), 16}),
+        of_equirect(EquirectView{cube.data(), 48, 32});
+    for (const EnvironmentSampler* sampler : {&of_cube, &of_equirect})
+        for (const int count : {1, 37, 600}) {
+            std::vector<float> rgb(150);
+            LdMis(*sampler, 0.2, count, 3).integrate(8, texels, rgb);
+            results.mis.insert(results.mis.end(), rgb.begin(), rgb.end());
+        }
     results.exact.resize(150);
     std::uint64_t evaluations = 0;
     ld_exact(PatchBlocks(CubeView{cube.data(), 16}), 0.2, directions, results.exact, evaluations);
@@ -91,6 +100,7 @@ TEST(Simd, EveryVectorWidthGivesTheSameBits) {
         const Results results = run_kernels();
         EXPECT_EQ(results.dfg, widest.dfg) << hwy::TargetName(target);
         EXPECT_EQ(results.sampled, widest.sampled) << hwy::TargetName(target);
+        EXPECT_EQ(results.mis, widest.mis) << hwy::TargetName(target);
         EXPECT_EQ(results.exact, widest.exact) << hwy::TargetName(target);
         EXPECT_EQ(results.harmonic, widest.harmonic) << hwy::TargetName(target);
         EXPECT_EQ(results.near, widest.near) << hwy::TargetName(target);

@@ -202,7 +202,7 @@ TEST(ProbeBaker, CubeSourceTurnsByQuartersExactlyAndByNothingElse) {
 
 TEST(ProbeBaker, EveryIntegratorKeepsAConstantEnvironmentConstant) {
     for (const Integrator integrator :
-         {Integrator::is, Integrator::fis, Integrator::harmonic, Integrator::reference}) {
+         {Integrator::is, Integrator::mis, Integrator::fis, Integrator::harmonic, Integrator::reference}) {
         ProbeParams params = defaults();
         params.integrator = integrator;
         const Product product =
@@ -242,10 +242,47 @@ TEST(ProbeBaker, FilteredSamplesApproachTheReference) {
     }
 }
 
+TEST(ProbeBaker, MultipleImportanceSamplingFindsASunThatFilteringBlurs) {
+    const Inputs inputs{{"source", builtin_environment("outdoor")}};
+    const auto worst_error = [&](Integrator integrator, int samples) {
+        ProbeParams params = defaults();
+        params.size = 16;
+        params.levels = 3;
+        params.integrator = integrator;
+        params.samples = {samples};
+        const Product product = bake_probe(params, inputs);
+        Context context(2, {});
+        context.set_certify_fully(true);
+        double worst = 0;
+        for (const Figure& figure : certify(params, inputs, product, context).figures)
+            if (figure.metric == "relative_rmse" && figure.level > 0) worst = std::max(worst, figure.value);
+        return worst;
+    };
+    const double of_mis = worst_error(Integrator::mis, 256);
+    EXPECT_LT(of_mis, 0.03);
+    EXPECT_GT(worst_error(Integrator::fis, 256), 5 * of_mis);
+}
+
+TEST(ProbeBaker, BlackEnvironmentsAreBlackWhateverTheIntegrator) {
+    for (const Inputs& inputs : {equirect(32, [](const glm::dvec3&) { return glm::dvec3(0); }), [] {
+                                     Inputs cube = noise_cube(16);
+                                     for (float& value : cube.at("source").image.levels[0].texels) value = 0;
+                                     return cube;
+                                 }()})
+        for (const Integrator integrator : {Integrator::is, Integrator::mis, Integrator::fis,
+                                            Integrator::harmonic, Integrator::reference}) {
+            ProbeParams params = defaults();
+            params.integrator = integrator;
+            const Product product = bake_probe(params, inputs);
+            for (const Level& level : product.images[0].levels)
+                for (const float value : level.texels) ASSERT_EQ(value, 0) << enum_name(integrator);
+        }
+}
+
 TEST(ProbeBaker, SameBytesAtAnyThreadCount) {
     const Inputs inputs = equirect(64, axes_picture);
     for (const Integrator integrator :
-         {Integrator::is, Integrator::fis, Integrator::harmonic, Integrator::reference}) {
+         {Integrator::is, Integrator::mis, Integrator::fis, Integrator::harmonic, Integrator::reference}) {
         ProbeParams params = defaults();
         params.integrator = integrator;
         const Product one = bake_probe(params, inputs, 1);
@@ -261,7 +298,8 @@ TEST(ProbeBaker, OneHugeTexelStaysFinite) {
     for (const double huge : {1e6, 1e9, 3e38}) {
         Inputs inputs = equirect(64, [](const glm::dvec3&) { return glm::dvec3(1); });
         inputs.at("source").image.texel(0, 0, 10, 20)[0] = static_cast<float>(huge);
-        for (const Integrator integrator : {Integrator::fis, Integrator::harmonic, Integrator::reference}) {
+        for (const Integrator integrator :
+             {Integrator::mis, Integrator::fis, Integrator::harmonic, Integrator::reference}) {
             ProbeParams params = defaults();
             params.integrator = integrator;
             const Product product = bake_probe(params, inputs);
