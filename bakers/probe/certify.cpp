@@ -13,6 +13,7 @@
 #include "bakers/probe/levels.hpp"
 #include "bakers/probe/method.hpp"
 #include "bakers/probe/probe.hpp"
+#include "bakers/probe/source_layout.hpp"
 #include "bakers/probe/tile_sample.hpp"
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/ld.hpp"
@@ -341,7 +342,8 @@ Figure low_band_figure(const Product& product, const std::vector<glm::dvec3>& so
 
 Certificate certify(const ProbeParams& params, const Inputs& inputs, const Product& product,
                     Context& context) {
-    const Environment environment(params, inputs.at("source"));
+    SourceImage unfolded;
+    const Environment environment(params, environment_source(params, inputs, unfolded));
     const pbr::PatchBlocks blocks = environment.blocks();
     const pbr::MomentTree tree(blocks, each_on(context, 0));
     const std::vector<glm::dvec3> source_bands = pbr::sh_project(tree, kLowBands);
