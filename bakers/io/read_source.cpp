@@ -71,10 +71,11 @@ SourceImage read_source(const ReadRequest& request) {
                     "unknown working space '" + request.working_space + "'; allowed: lin_rec709, acescg");
     try {
         // A file's bytes are at most as many as its decoded texels take, but for channels that aren't read.
-        const std::vector<std::byte> bytes = read_file(request.path, request.limits.max_decoded_bytes * 2);
+        std::vector<std::byte> bytes = read_file(request.path, request.limits.max_decoded_bytes * 2);
         SourceImage source;
         source.hash = hash_bytes(bytes.data(), bytes.size());
         Decoded decoded = decode(bytes, request);
+        bytes = {};  // as large as the texels, where these are stored uncompressed
         source.units = decoded.units;
 
         repair_non_finite(decoded.rgb, source.repairs);

@@ -133,15 +133,16 @@ class Reading {
             bake.sources.push_back({read, {}});
             return;
         }
+        const std::string key = read.field.substr(0, read.field.find('.'));  // "source" of "source.px" too
         if (const auto refusal = fence_.refusal(read.path)) {
-            add(at + "/" + read.field, shown(read.path) + " " + *refusal);
+            add(at + "/" + key, shown(read.path) + " " + *refusal);
             return;
         }
         Source source{read, fence_.resolve(read.path)};
         const fs::path given(read.path);
         if (given.is_absolute()) {  // only trusted paths are; a record holds no absolute path
             source.read.path = given.filename().string();
-            bake.params[read.field] = source.read.path;
+            bake.params[key] = fs::path(bake.json[key].get<std::string>()).filename().string();
         }
         bake.sources.push_back(std::move(source));
     }

@@ -9,6 +9,7 @@
 #include "bakers/probe/environment.hpp"
 #include "bakers/probe/levels.hpp"
 #include "bakers/probe/probe.hpp"
+#include "bakers/probe/source_layout.hpp"
 
 namespace pbrbake::probe {
 namespace {
@@ -83,12 +84,11 @@ std::vector<Mistake> check(const ProbeParams& params, const std::string& format)
     return mistakes;
 }
 
-std::vector<Read> reads(const ProbeParams& params) {
-    return {{"source", params.source, params.colour_space}};
-}
+std::vector<Read> reads(const ProbeParams& params) { return source_files(params); }
 
 Product bake(const ProbeParams& params, const Inputs& inputs, Context& context) {
-    const SourceImage& source = inputs.at("source");
+    SourceImage unfolded;
+    const SourceImage& source = environment_source(params, inputs, unfolded);
     if (source.image.faces == 6 && !permutes_cube(params.rotate_deg))
         throw Error(ExitCode::invalid_job, params.source,
                     "is a cube map, and rotate_deg is " + std::to_string(params.rotate_deg) +

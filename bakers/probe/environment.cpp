@@ -7,7 +7,6 @@
 
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/numerics/elementary.hpp"
-#include "pbr/numerics/sum.hpp"
 
 namespace pbrbake::probe {
 namespace {
@@ -72,24 +71,8 @@ pbr::LdHarmonic Environment::harmonic(double smallest_alpha, double max_error,
                      : pbr::LdHarmonic(equirect_, smallest_alpha, max_error, each);
 }
 
-double Environment::energy() const {
-    pbr::CompensatedSum flux;
-    const auto add = [&](const float* rgb, double solid_angle) {
-        for (int c = 0; c < 3; ++c) flux += solid_angle * static_cast<double>(rgb[c]);
-    };
-    if (is_cube()) {
-        for (int y = 0; y < cube_.size; ++y)
-            for (int x = 0; x < cube_.size; ++x) {
-                const double solid_angle = pbr::cubemap_texel_solid_angle(cube_.size, x, y);
-                for (int face = 0; face < 6; ++face) add(cube_.texel(face, x, y), solid_angle);
-            }
-        return flux.value();
-    }
-    for (int y = 0; y < equirect_.height; ++y) {
-        const double solid_angle = pbr::equirect_texel_solid_angle(equirect_.width, equirect_.height, y);
-        for (int x = 0; x < equirect_.width; ++x) add(equirect_.texel(x, y), solid_angle);
-    }
-    return flux.value();
+double Environment::texels() const {
+    return is_cube() ? 6.0 * cube_.size * cube_.size : 1.0 * equirect_.width * equirect_.height;
 }
 
 namespace {

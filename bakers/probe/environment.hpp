@@ -25,6 +25,9 @@ class Environment {
     /// Size of a cube map with texels as large as the source's at its middle.
     int equivalent_size() const;
 
+    /// How many texels.
+    double texels() const;
+
     pbr::PatchBlocks blocks() const;
 
     /// What draws directions where it is bright.
@@ -32,9 +35,6 @@ class Environment {
 
     /// Its transform for lobes of alpha >= smallest_alpha.
     pbr::LdHarmonic harmonic(double smallest_alpha, double max_error, const pbr::ForEach& each) const;
-
-    /// Radiance times solid angle over all texels and channels.
-    double energy() const;
 
     /// One row of a face, by the slower and more exact way: what resample() is held against.
     void resample_row(int size, int face, int y, std::span<float> rgb_out) const;

@@ -12,11 +12,13 @@ namespace pbrbake {
 namespace probe {
 
 enum class Integrator { automatic, is, mis, fis, harmonic, reference };
+enum class SourceLayout { automatic, equirect, cube, strip, cross };
 enum class Up { y, z };
 enum class Units { automatic, relative, cd_per_m2 };
 
 struct ProbeParams {
     std::string source;
+    SourceLayout source_layout;
     std::string colour_space;
     Units units;
     double rotate_deg;
@@ -33,6 +35,7 @@ struct ProbeParams {
     template <class Visit>
     static void fields(Visit&& visit) {
         visit("source", &ProbeParams::source);
+        visit("source_layout", &ProbeParams::source_layout);
         visit("colour_space", &ProbeParams::colour_space);
         visit("units", &ProbeParams::units);
         visit("rotate_deg", &ProbeParams::rotate_deg);
@@ -54,6 +57,10 @@ template <>
 struct EnumNames<probe::Integrator> {
     static constexpr std::array<std::string_view, 6> names{"auto", "is",       "mis",
                                                            "fis",  "harmonic", "reference"};
+};
+template <>
+struct EnumNames<probe::SourceLayout> {
+    static constexpr std::array<std::string_view, 5> names{"auto", "equirect", "cube", "strip", "cross"};
 };
 template <>
 struct EnumNames<probe::Up> {

@@ -218,7 +218,9 @@ class BakeRun {
         const auto& headline = certificate_.headline;
         if (headline && headline->value <= bake_.accuracy.max_error) return;
         report_.code = ExitCode::accuracy_missed;
-        report_.error = headline ? headline->metric + " is " + number_text(headline->value) +
+        const std::string place =
+            headline && headline->level ? "level " + std::to_string(*headline->level) + ": " : "";
+        report_.error = headline ? place + headline->metric + " is " + number_text(headline->value) +
                                        ", above the max_error of " + number_text(bake_.accuracy.max_error) +
                                        " that was stated"
                                  : "its certificate has no figure to hold max_error against";

@@ -9,11 +9,14 @@
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/quadrature.hpp"
+#include "src/simd/patch_kernel.hpp"
 
 namespace pbr {
 namespace {
 
-constexpr int kBlockSide = 8;
+/// Texels a side of a block: small ones let far fields come near, but a tree over too many costs more than it
+/// spares.
+int block_side(double texels) { return texels <= 0x1p18 ? 4 : texels <= 0x1p24 ? 8 : 16; }
 
 double texel_angle_of(const EquirectView& source) {
     return std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height);
@@ -38,23 +41,29 @@ void PatchPoints::resize(std::size_t count) {
 
 PatchBlocks::PatchBlocks(const EquirectView& source)
     : equirect_(source), texel_angle_(texel_angle_of(source)), rules_(rules_of_orders()) {
-    add_blocks(0, source.width, source.height);
+    tabulate_axes();
+    add_blocks(1, source.width, source.height);
 }
 
 PatchBlocks::PatchBlocks(const CubeView& source)
     : cube_(source), texel_angle_(2.0 / source.size), rules_(rules_of_orders()) {
-    for (int face = 0; face < 6; ++face) add_blocks(face, source.size, source.size);
+    add_blocks(6, source.size, source.size);
 }
 
-glm::dvec3 PatchBlocks::direction(int face, double x, double y) const {
-    if (cube_.rgb) return glm::normalize(cube_vector(face, 2 * x / cube_.size - 1, 2 * y / cube_.size - 1));
+glm::dvec3 PatchBlocks::direction(int face, int half_x, int half_y) const {
+    if (cube_.rgb)
+        return glm::normalize(cube_vector(face, static_cast<double>(half_x) / cube_.size - 1,
+                                          static_cast<double>(half_y) / cube_.size - 1));
+    const SinCos longitude = half_columns_[static_cast<std::size_t>(half_x)],
+                 colatitude = half_rows_[static_cast<std::size_t>(half_y)];
     // world_to_source is orthogonal: its transpose leads back.
-    return glm::transpose(equirect_.world_to_source) *
-           equirect_direction(x / equirect_.width, y / equirect_.height);
+    return glm::dvec3(colatitude.sin * longitude.sin, colatitude.cos, colatitude.sin * longitude.cos) *
+           equirect_.world_to_source;
 }
 
 PatchBlocks::PatchBlocks(const EquirectView& source, std::span<const CubeTexel> texels)
     : equirect_(source), texel_angle_(texel_angle_of(source)), rules_(rules_of_orders()) {
+    tabulate_halves();
     for (const CubeTexel& texel : texels) add_block({0, texel.x, texel.y, 1, 1, {}});
 }
 
@@ -63,81 +72,152 @@ PatchBlocks::PatchBlocks(const CubeView& source, std::span<const CubeTexel> texe
     for (const CubeTexel& texel : texels) add_block({texel.face, texel.x, texel.y, 1, 1, {}});
 }
 
-void PatchBlocks::add_blocks(int face, int width, int height) {
-    for (int y = 0; y < height; y += kBlockSide)
-        for (int x = 0; x < width; x += kBlockSide)
-            add_block({face, x, y, std::min(kBlockSide, width - x), std::min(kBlockSide, height - y), {}});
+void PatchBlocks::add_blocks(int faces, int width, int height) {
+    const int side = block_side(static_cast<double>(faces) * width * height);
+    grid_ = {faces, (width + side - 1) / side, (height + side - 1) / side, side};
+    blocks_.reserve(static_cast<std::size_t>(faces) * grid_.columns * grid_.rows);
+    for (int face = 0; face < faces; ++face)
+        for (int y = 0; y < height; y += side)
+            for (int x = 0; x < width; x += side)
+                add_block({face, x, y, std::min(side, width - x), std::min(side, height - y), {}});
+}
+
+double PatchBlocks::reach(const Cells& cells, const glm::dvec3& from) const {
+    // The cosine from a fixed vector is a sinusoid along a great circle and along a parallel, and so along
+    // the edges of a face and of an equirect's cell no wider than a quarter of the circle: least at a corner.
+    const int width = cube_.rgb ? cube_.size : equirect_.width;
+    const int height = cube_.rgb ? cube_.size : equirect_.height;
+    const int left = cells.left * grid_.side, right = std::min(width, cells.right * grid_.side);
+    const int top = cells.top * grid_.side, bottom = std::min(height, cells.bottom * grid_.side);
+    if (!cube_.rgb && 4 * (right - left) > width) return 2;
+    double farthest = 0;
+    for (const int y : {top, bottom})
+        for (const int x : {left, right})
+            farthest = std::max(farthest, glm::length(direction(cells.face, 2 * x, 2 * y) - from));
+    return farthest;
 }
 
 void PatchBlocks::add_block(Block block) {
-    block.cone.axis = direction(block.face, block.x + block.width / 2.0, block.y + block.height / 2.0);
-    // A cell of a grid is not convex on the sphere, but no point of it is farther out than its outline by
-    // more than a texel.
+    block.cone.axis = direction(block.face, 2 * block.x + block.width, 2 * block.y + block.height);
+    // No point of a cell is farther out than its corners by more than half a texel.
     double farthest = 0;
-    for (int j = 0; j <= block.height; ++j)
-        for (int i = 0; i <= block.width; ++i) {
-            const glm::dvec3 d = direction(block.face, block.x + i, block.y + j);
+    for (const int j : {0, block.height})
+        for (const int i : {0, block.width}) {
+            const glm::dvec3 d = direction(block.face, 2 * (block.x + i), 2 * (block.y + j));
             farthest = std::max(farthest, glm::length(d - block.cone.axis));
         }
+    if (!cube_.rgb && 4 * block.width > equirect_.width) farthest = 2;
     block.cone.half_angle = angle_of_chord(farthest) + texel_angle_ / 2;
     blocks_.push_back(block);
 }
 
-void PatchBlocks::points(int index, int order_index, PatchPoints& points) const {
-    const Block& block = blocks_[index];
-    const QuadratureRule& rule = rules_[order_index];
-    const std::size_t nodes = static_cast<std::size_t>(rule.size());
-    points.resize(nodes * nodes * block.width * block.height);
-    if (cube_.rgb) {
-        cube_points(block, rule, points);
-    } else {
-        equirect_points(block, rule, points);
-    }
-}
-
-void PatchBlocks::equirect_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const {
-    // The points are a product of longitudes and colatitudes: sines and cosines are taken along the axes
-    // alone.
-    const std::size_t order = static_cast<std::size_t>(rule.size());
-    std::vector<SinCos> longitudes(order * block.width), colatitudes(order * block.height);
-    for (std::size_t i = 0; i < longitudes.size(); ++i)
-        longitudes[i] = sin_cos_pi(1 - 2 * (block.x + static_cast<int>(i / order) + rule.nodes[i % order]) /
-                                           equirect_.width);
-    for (std::size_t i = 0; i < colatitudes.size(); ++i)
-        colatitudes[i] =
-            sin_cos_pi((block.y + static_cast<int>(i / order) + rule.nodes[i % order]) / equirect_.height);
-    const glm::dmat3 to_world = glm::transpose(equirect_.world_to_source);  // it is orthogonal
-
-    std::size_t at = 0;
-    for (int y = 0; y < block.height; ++y) {
-        // Solid angle of a texel, and the sum its points' sines have.
-        const double exact = equirect_texel_solid_angle(equirect_.width, equirect_.height, block.y + y);
-        double sines = 0;
-        for (std::size_t b = 0; b < order; ++b) sines += rule.weights[b] * colatitudes[y * order + b].sin;
-        for (std::size_t b = 0; b < order; ++b) {
-            const SinCos colatitude = colatitudes[y * order + b];
-            const double row_weight = exact * rule.weights[b] * colatitude.sin / sines;
-            const glm::dvec3 up = to_world[1] * colatitude.cos;
-            const glm::dvec3 right = to_world[0] * colatitude.sin, ahead = to_world[2] * colatitude.sin;
-            for (std::size_t i = 0; i < longitudes.size(); ++i, ++at) {
-                const glm::dvec3 d = up + right * longitudes[i].sin + ahead * longitudes[i].cos;
-                const float* rgb = equirect_.texel(block.x + static_cast<int>(i / order), block.y + y);
-                points.x[at] = static_cast<float>(d.x);
-                points.y[at] = static_cast<float>(d.y);
-                points.z[at] = static_cast<float>(d.z);
-                points.weight[at] = static_cast<float>(row_weight * rule.weights[i % order]);
-                points.r[at] = rgb[0];
-                points.g[at] = rgb[1];
-                points.b[at] = rgb[2];
-            }
+PatchBlocks::AxisPoints PatchBlocks::longitudes(int first, int count, const QuadratureRule& rule) const {
+    AxisPoints points;
+    for (int x = first; x < first + count; ++x)
+        for (const double node : rule.nodes) {
+            const SinCos longitude = sin_cos_pi(1 - 2 * (x + node) / equirect_.width);
+            points.sines.push_back(longitude.sin);
+            points.cosines.push_back(longitude.cos);
         }
+    for (int x = 0; x < count; ++x)
+        points.weights.insert(points.weights.end(), rule.weights.begin(), rule.weights.end());
+    return points;
+}
+
+PatchBlocks::AxisPoints PatchBlocks::colatitudes(int first, int count, const QuadratureRule& rule) const {
+    AxisPoints points;
+    const std::size_t order = static_cast<std::size_t>(rule.size());
+    for (int y = first; y < first + count; ++y) {
+        double sum = 0;
+        for (std::size_t b = 0; b < order; ++b) {
+            const SinCos colatitude = sin_cos_pi((y + rule.nodes[b]) / equirect_.height);
+            points.sines.push_back(colatitude.sin);
+            points.cosines.push_back(colatitude.cos);
+            points.weights.push_back(rule.weights[b] * colatitude.sin);
+            sum += points.weights.back();
+        }
+        // The points of a texel have its exact solid angle.
+        const double to_exact = equirect_texel_solid_angle(equirect_.width, equirect_.height, y) / sum;
+        for (std::size_t b = points.weights.size() - order; b < points.weights.size(); ++b)
+            points.weights[b] *= to_exact;
+    }
+    return points;
+}
+
+void PatchBlocks::tabulate_halves() {
+    for (int i = 0; i <= 2 * equirect_.width; ++i)
+        half_columns_.push_back(sin_cos_pi(1 - static_cast<double>(i) / equirect_.width));
+    for (int i = 0; i <= 2 * equirect_.height; ++i)
+        half_rows_.push_back(sin_cos_pi(static_cast<double>(i) / (2 * equirect_.height)));
+}
+
+void PatchBlocks::tabulate_axes() {
+    tabulate_halves();
+    for (std::size_t k = 0; k < longitudes_.size(); ++k) {
+        longitudes_[k] = longitudes(0, equirect_.width, rules_[k]);
+        colatitudes_[k] = colatitudes(0, equirect_.height, rules_[k]);
     }
 }
 
-void PatchBlocks::cube_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const {
+void PatchBlocks::points(int index, int order_index, PatchPoints& points) const {
+    points.resize(0);
+    append_points(index, order_index, points);
+}
+
+void PatchBlocks::middle_points(int index, int order_index, PatchPoints& points) const {
+    const Block& block = blocks_[index];
+    points.resize(0);
+    append({block.face, block.x + block.width / 2, block.y + block.height / 2, 1, 1, {}}, order_index,
+           points);
+}
+
+void PatchBlocks::append_points(int index, int order_index, PatchPoints& points) const {
+    append(blocks_[index], order_index, points);
+}
+
+void PatchBlocks::append(const Block& block, int order_index, PatchPoints& points) const {
+    const std::size_t at = points.size(), nodes = static_cast<std::size_t>(kOrders[order_index]);
+    points.resize(at + nodes * nodes * block.width * block.height);
+    if (cube_.rgb) {
+        cube_points(block, rules_[order_index], at, points);
+    } else {
+        equirect_points(block, order_index, at, points);
+    }
+}
+
+void PatchBlocks::equirect_points(const Block& block, int order_index, std::size_t at,
+                                  PatchPoints& points) const {
+    // The points are a product of longitudes and colatitudes: sines and cosines are taken along the axes
+    // alone, and for the orders that most points have but once.
+    const QuadratureRule& rule = rules_[order_index];
+    const std::size_t order = static_cast<std::size_t>(rule.size());
+    const bool tabulated = order_index < static_cast<int>(longitudes_.size()) && grid_.faces > 0;
+    AxisPoints own_columns, own_rows;
+    if (!tabulated) {
+        own_columns = longitudes(block.x, block.width, rule);
+        own_rows = colatitudes(block.y, block.height, rule);
+    }
+    const AxisPoints& columns = tabulated ? longitudes_[order_index] : own_columns;
+    const AxisPoints& rows = tabulated ? colatitudes_[order_index] : own_rows;
+    const std::size_t column = tabulated ? block.x * order : 0, row = tabulated ? block.y * order : 0;
+    const glm::dmat3 to_world = glm::transpose(equirect_.world_to_source);  // it is orthogonal
+    fill_lat_long_points({{&columns.sines[column], &columns.cosines[column], &columns.weights[column]},
+                          {&rows.sines[row], &rows.cosines[row], &rows.weights[row]},
+                          to_world[0],
+                          to_world[1],
+                          to_world[2],
+                          equirect_.texel(block.x, block.y),
+                          static_cast<std::size_t>(equirect_.width) * 3,
+                          block.width,
+                          block.height,
+                          static_cast<int>(order)},
+                         at, points);
+}
+
+void PatchBlocks::cube_points(const Block& block, const QuadratureRule& rule, std::size_t at,
+                              PatchPoints& points) const {
     // The measure on a face is (1 + s^2 + t^2)^-3/2 ds dt.
     const double n = cube_.size;
-    std::size_t at = 0;
     for (int y = block.y; y < block.y + block.height; ++y)
         for (int x = block.x; x < block.x + block.width; ++x) {
             const float* rgb = cube_.texel(block.face, x, y);

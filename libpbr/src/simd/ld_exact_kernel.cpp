@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -61,19 +62,139 @@ void add_block(const PatchPoints& points, float alpha2, float normalisation, LdG
     }
 }
 
+/// Adds, for all nodes, the sum over j of k^(j)(n.c)/j! times the integral of radiance times (n.(d - c))^j.
+void add_nodes(std::span<const MomentNode> nodes, float alpha2, float normalisation, LdGroup& group) {
+    const hn::CappedTag<float, kLdGroup> d;
+    using V = hn::Vec<decltype(d)>;
+    const std::size_t lanes = hn::Lanes(d);
+    // k = N x / f^2 with f = alpha^2 + b (1 - x) and u = b / f; its derivatives are N (1 + 2 x u) / f^2,
+    // N u (4 + 6 x u) / f^2 and N u^2 (18 + 24 x u) / f^2.
+    const float b_scalar = (1 - alpha2) / 2;
+    const V a2 = hn::Set(d, alpha2), b = hn::Set(d, b_scalar), one = hn::Set(d, 1.0f),
+            half = hn::Set(d, 0.5f);
+    const auto linear = [&](float constant, float factor, V x) HWY_ATTR {
+        return hn::Add(hn::Set(d, constant), hn::Mul(hn::Set(d, factor), x));
+    };
+    for (std::size_t begin = 0; begin < kLdGroup; begin += lanes) {
+        const V nx = hn::Load(d, group.x + begin), ny = hn::Load(d, group.y + begin),
+                nz = hn::Load(d, group.z + begin);
+        const V xx = hn::Mul(nx, nx), yy = hn::Mul(ny, ny), zz = hn::Mul(nz, nz), xy = hn::Mul(nx, ny);
+        const V n[kMonomials.size()] = {one,
+                                        nx,
+                                        ny,
+                                        nz,
+                                        xx,
+                                        yy,
+                                        zz,
+                                        xy,
+                                        hn::Mul(nx, nz),
+                                        hn::Mul(ny, nz),
+                                        hn::Mul(xx, nx),
+                                        hn::Mul(yy, ny),
+                                        hn::Mul(zz, nz),
+                                        hn::Mul(xx, ny),
+                                        hn::Mul(xx, nz),
+                                        hn::Mul(yy, nx),
+                                        hn::Mul(yy, nz),
+                                        hn::Mul(zz, nx),
+                                        hn::Mul(zz, ny),
+                                        hn::Mul(xy, nz)};
+        for (std::size_t first = 0; first < nodes.size(); first += kFlush) {
+            V sums[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+            for (std::size_t i = first; i < std::min(nodes.size(), first + kFlush); ++i) {
+                const MomentCone& node = *nodes[i].cone;
+                const auto& moments = nodes[i].moments->mean;
+                const float length = node.length;
+                const V dx = hn::Sub(nx, hn::Set(d, node.axis[0] * length)),
+                        dy = hn::Sub(ny, hn::Set(d, node.axis[1] * length)),
+                        dz = hn::Sub(nz, hn::Set(d, node.axis[2] * length));
+                // 1 - n.c = (|n - c|^2 + 1 - |c|^2) / 2
+                const V chord2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+                const V versine = hn::Mul(half, hn::Add(chord2, hn::Set(d, (1 - length) * (1 + length))));
+                const V inverse = hn::Div(one, hn::Add(a2, hn::Mul(b, versine)));
+                const V share =
+                    hn::Mul(hn::Mul(hn::Set(d, normalisation * node.solid_angle), inverse), inverse);
+                const V x = hn::Sub(one, versine), u = hn::Mul(b, inverse), xu = hn::Mul(x, u);
+                const V share_u = hn::Mul(share, u), share_uu = hn::Mul(share_u, u);
+                const V k0 = hn::Mul(share, x), k1 = hn::Mul(share, linear(1, 2, xu)),
+                        k2 = hn::Mul(share_u, linear(4, 6, xu)), k3 = hn::Mul(share_uu, linear(18, 24, xu));
+                for (std::size_t c = 0; c < 4; ++c) {
+                    const auto form = [&](std::size_t from, std::size_t to) HWY_ATTR {
+                        V sum = hn::Mul(n[from], hn::Set(d, moments[from][c]));
+                        for (std::size_t k = from + 1; k < to; ++k)
+                            sum = hn::Add(sum, hn::Mul(n[k], hn::Set(d, moments[k][c])));
+                        return sum;
+                    };
+                    const V low = hn::Add(hn::Mul(k0, hn::Set(d, moments[0][c])), hn::Mul(k1, form(1, 4)));
+                    const V high = hn::Add(hn::Mul(k2, form(4, 10)), hn::Mul(k3, form(10, 20)));
+                    sums[c] = hn::Add(sums[c], hn::Add(low, high));
+                }
+            }
+            HWY_ALIGN_MAX float out[kLdGroup];
+            for (int c = 0; c < 4; ++c) {
+                hn::Store(sums[c], d, out);
+                for (std::size_t lane = 0; lane < lanes; ++lane)
+                    group.sum[c][begin + lane] += static_cast<double>(out[lane]);
+            }
+        }
+    }
+}
+
+/// The same as add_block for one direction. Lanes hold points, kLdGroup sums side by side at any vector
+/// width.
+void add_points_to_one(const PatchPoints& points, float alpha2, float normalisation, LdSingle& single) {
+    const hn::CappedTag<float, kLdGroup> d;
+    using V = hn::Vec<decltype(d)>;
+    const std::size_t lanes = hn::Lanes(d);
+    const V a2 = hn::Set(d, alpha2), slope = hn::Set(d, (1 - alpha2) / 4), one = hn::Set(d, 1.0f),
+            half = hn::Set(d, 0.5f), factor = hn::Set(d, normalisation);
+    const V nx = hn::Set(d, single.n[0]), ny = hn::Set(d, single.n[1]), nz = hn::Set(d, single.n[2]);
+    HWY_ALIGN_MAX float all[4][kLdGroup];
+    for (std::size_t begin = 0; begin < kLdGroup; begin += lanes) {
+        V r = hn::Zero(d), g = hn::Zero(d), b = hn::Zero(d), w = hn::Zero(d);
+        for (std::size_t i = begin; i < points.size(); i += kLdGroup) {
+            const std::size_t left = std::min(lanes, points.size() - i);
+            const auto load = [&](const std::vector<float>& array) HWY_ATTR {
+                return left == lanes ? hn::LoadU(d, &array[i])
+                                     : hn::MaskedLoad(hn::FirstN(d, left), d, &array[i]);
+            };
+            const V dx = hn::Sub(nx, load(points.x)), dy = hn::Sub(ny, load(points.y)),
+                    dz = hn::Sub(nz, load(points.z));
+            const V chord2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+            const V mu = hn::Max(hn::Zero(d), hn::Sub(one, hn::Mul(half, chord2)));
+            const V f = hn::Add(a2, hn::Mul(slope, chord2));
+            const V k = hn::Div(hn::Mul(hn::Mul(mu, factor), load(points.weight)), hn::Mul(f, f));
+            r = hn::Add(r, hn::Mul(k, load(points.r)));
+            g = hn::Add(g, hn::Mul(k, load(points.g)));
+            b = hn::Add(b, hn::Mul(k, load(points.b)));
+            w = hn::Add(w, k);
+        }
+        hn::Store(r, d, all[0] + begin);
+        hn::Store(g, d, all[1] + begin);
+        hn::Store(b, d, all[2] + begin);
+        hn::Store(w, d, all[3] + begin);
+    }
+    for (std::size_t c = 0; c < 4; ++c) {
+        double sum = 0;
+        for (const float value : all[c]) sum += static_cast<double>(value);
+        single.sum[c] += sum;
+    }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pbr
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace pbr {
-namespace {
 
 HWY_EXPORT(add_block);
+HWY_EXPORT(add_nodes);
+HWY_EXPORT(add_points_to_one);
 
-/// Points a texel needs at an angle from the lobe's axis: Gauss-Legendre over a texel of angle h converges
-/// once h is well below the distance of the kernel's poles, which is about hypot(2 alpha, angle).
-int order_index(double texel_angle, double alpha, double nearest_angle) {
+// Gauss-Legendre over a texel of angle h converges once h is well below the distance of the kernel's poles,
+// which is about hypot(2 alpha, angle).
+int ld_order_index(double texel_angle, double alpha, double nearest_angle) {
     const double reach = texel_angle / std::sqrt(4 * alpha * alpha + nearest_angle * nearest_angle);
     if (reach < 0.02) return 0;
     const double wanted = 1.5 + 4 * reach;
@@ -84,8 +205,7 @@ int order_index(double texel_angle, double alpha, double nearest_angle) {
     return index;
 }
 
-/// The group's directions and a cone around them; the last direction fills unused places.
-Cone fill_group(std::span<const glm::dvec3> directions, LdGroup& group) {
+Cone ld_fill_group(std::span<const glm::dvec3> directions, LdGroup& group) {
     const std::size_t last = directions.size() - 1;
     glm::dvec3 axis(0);
     for (const glm::dvec3& n : directions) axis += n;
@@ -102,13 +222,55 @@ Cone fill_group(std::span<const glm::dvec3> directions, LdGroup& group) {
     return {axis, angle_of_chord(farthest)};
 }
 
-}  // namespace
+void ld_add_points(const PatchPoints& points, double alpha, double normalisation, LdGroup& group) {
+    HWY_DYNAMIC_DISPATCH(add_block)
+    (points, static_cast<float>(alpha * alpha), static_cast<float>(normalisation), group);
+}
+
+void ld_add_nodes(std::span<const MomentNode> nodes, double alpha, double normalisation, LdGroup& group) {
+    HWY_DYNAMIC_DISPATCH(add_nodes)
+    (nodes, static_cast<float>(alpha * alpha), static_cast<float>(normalisation), group);
+}
+
+void ld_add_points(const PatchPoints& points, double alpha, double normalisation, LdSingle& single) {
+    HWY_DYNAMIC_DISPATCH(add_points_to_one)
+    (points, static_cast<float>(alpha * alpha), static_cast<float>(normalisation), single);
+}
+
+void ld_add_nodes(std::span<const MomentNode> nodes, double alpha, double normalisation, LdSingle& single) {
+    const double alpha2 = alpha * alpha, b = (1 - alpha2) / 2;
+    const glm::dvec3 n(single.n[0], single.n[1], single.n[2]);
+    std::array<double, kMonomials.size()> powers{};
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+        powers[k] = 1;
+        for (int i = 0; i < kMonomials[k].a; ++i) powers[k] *= n.x;
+        for (int i = 0; i < kMonomials[k].b; ++i) powers[k] *= n.y;
+        for (int i = 0; i < kMonomials[k].c; ++i) powers[k] *= n.z;
+    }
+    for (const MomentNode& node : nodes) {
+        const double length = node.cone->length;
+        const glm::dvec3 apart = n - node.cone->centre();
+        const double versine = (glm::dot(apart, apart) + (1 - length) * (1 + length)) / 2, x = 1 - versine;
+        const double inverse = 1 / (alpha2 + b * versine), u = b * inverse;
+        const double share = normalisation * static_cast<double>(node.cone->solid_angle) * inverse * inverse;
+        const std::array<double, 4> derivatives{share * x, share * (1 + 2 * x * u),
+                                                share * u * (4 + 6 * x * u),
+                                                share * u * u * (18 + 24 * x * u)};
+        std::array<double, 4> sums{};
+        constexpr std::array<std::size_t, 5> kDegrees{0, 1, 4, 10, 20};
+        for (std::size_t j = 0; j < 4; ++j)
+            for (std::size_t k = kDegrees[j]; k < kDegrees[j + 1]; ++k)
+                for (std::size_t c = 0; c < 4; ++c)
+                    sums[c] += derivatives[j] * powers[k] * static_cast<double>(node.moments->mean[k][c]);
+        for (std::size_t c = 0; c < 4; ++c) single.sum[c] += sums[c];
+    }
+}
 
 namespace {
 
 /// The sums of all directions, kLdGroup of them a group.
-std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
-                             std::uint64_t& evaluations) {
+std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, bool is_part,
+                             std::span<const glm::dvec3> directions, std::uint64_t& evaluations) {
     const GgxZonalKernel kernel(alpha);
     const std::size_t group_count = (directions.size() + kLdGroup - 1) / kLdGroup;
     std::vector<LdGroup> groups(group_count);
@@ -117,7 +279,7 @@ std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, std::span<
         return directions.subspan(g * kLdGroup,
                                   std::min<std::size_t>(kLdGroup, directions.size() - g * kLdGroup));
     };
-    for (std::size_t g = 0; g < group_count; ++g) cones[g] = fill_group(of_group(g), groups[g]);
+    for (std::size_t g = 0; g < group_count; ++g) cones[g] = ld_fill_group(of_group(g), groups[g]);
 
     std::vector<PatchPoints> by_order(std::size(PatchBlocks::kOrders));
     for (int block = 0; block < source.count(); ++block) {
@@ -127,12 +289,15 @@ std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, std::span<
             const double apart = angle_of_chord(glm::length(cones[g].axis - cone.axis));
             const double nearest = std::max(0.0, apart - cones[g].half_angle - cone.half_angle);
             if (nearest > std::numbers::pi / 2) continue;  // wholly below the horizon
-            const int index = order_index(source.texel_angle(), alpha, nearest);
+            // The errors of a whole picture's texels cancel; those of a few bright ones don't, and get a step
+            // more.
+            const bool above = apart + cones[g].half_angle + cone.half_angle < std::numbers::pi / 2;
+            const int last = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
+            const int index =
+                std::min(last, ld_order_index(source.texel_angle(), alpha, nearest) + (is_part && above));
             PatchPoints& points = by_order[static_cast<std::size_t>(index)];
             if (points.size() == 0) source.points(block, index, points);
-            HWY_DYNAMIC_DISPATCH(add_block)
-            (points, static_cast<float>(alpha * alpha), static_cast<float>(kernel.normalisation()),
-             groups[g]);
+            ld_add_points(points, alpha, kernel.normalisation(), groups[g]);
             evaluations += points.size() * kLdGroup;
         }
     }
@@ -144,7 +309,7 @@ std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, std::span<
 
 double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations) {
-    const std::vector<LdGroup> groups = sums_of(source, alpha, directions, evaluations);
+    const std::vector<LdGroup> groups = sums_of(source, alpha, false, directions, evaluations);
     double deviation = 0;
     for (std::size_t i = 0; i < directions.size(); ++i) {
         const LdGroup& group = groups[i / kLdGroup];
@@ -157,7 +322,7 @@ double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dv
 
 void ld_partial(const PatchBlocks& part, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations) {
-    const std::vector<LdGroup> groups = sums_of(part, alpha, directions, evaluations);
+    const std::vector<LdGroup> groups = sums_of(part, alpha, true, directions, evaluations);
     for (std::size_t i = 0; i < directions.size(); ++i)
         for (int c = 0; c < 3; ++c) rgb_out[i * 3 + c] = groups[i / kLdGroup].sum[c][i % kLdGroup];
 }

@@ -5,7 +5,10 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 
+#include "pbr/ibl/moment_tree.hpp"
+#include "pbr/ibl/patches.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/frame.hpp"
 
@@ -37,6 +40,35 @@ struct LdGroup {
     HWY_ALIGN_MAX float x[kLdGroup], y[kLdGroup], z[kLdGroup];
     double sum[4][kLdGroup];
 };
+
+/// Fills a group with 1 to kLdGroup directions, the last of them in unused places, its sums 0, and returns a
+/// cone around them.
+Cone ld_fill_group(std::span<const glm::dvec3> directions, LdGroup& group);
+
+/// The order of points for texels of an angle, `nearest_angle` from the axis of the lobe.
+int ld_order_index(double texel_angle, double alpha, double nearest_angle);
+
+/// A node of a tree.
+struct MomentNode {
+    const MomentCone* cone;
+    const Moments* moments;
+};
+
+/// Sums of one direction.
+struct LdSingle {
+    float n[3];
+    double sum[4];
+};
+
+/// As below for one direction, points side by side.
+void ld_add_points(const PatchPoints& points, double alpha, double normalisation, LdSingle& single);
+void ld_add_nodes(std::span<const MomentNode> nodes, double alpha, double normalisation, LdSingle& single);
+
+/// Adds k weight radiance of all points to a group's sums, k = normalisation mu+ / f^2.
+void ld_add_points(const PatchPoints& points, double alpha, double normalisation, LdGroup& group);
+
+/// The same of nodes wholly above the horizon, k expanded to second order about each node's centre.
+void ld_add_nodes(std::span<const MomentNode> nodes, double alpha, double normalisation, LdGroup& group);
 
 /// Samples that are summed side by side, whatever the vector width: what sets of MisSamples are padded to.
 inline constexpr int kMisPadding = 16;

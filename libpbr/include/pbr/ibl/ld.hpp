@@ -17,6 +17,7 @@
 #include "pbr/ibl/cube_pyramid.hpp"
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
+#include "pbr/ibl/moment_tree.hpp"
 #include "pbr/ibl/patches.hpp"
 
 namespace pbr {
@@ -68,6 +69,24 @@ void ld_sampled(const CubePyramid& pyramid, const LdSamples& samples, std::uint6
 /// more, 2e-4 at 32, for alpha >= .003. Adds its kernel evaluations to `evaluations`.
 double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations);
+
+/// How far ld_exact over a tree can be from the integral over constant texels.
+struct LdTreeError {
+    double deviation;  ///< largest |1 - integral of k|: the quadrature's, as ld_exact returns it
+    double far_field;  ///< proven: what taking distant parts as one moved a result by, over result plus
+                       ///< picture's mean
+};
+
+/// The same with distant parts taken as one: a node of the tree in place of its texels wherever the Taylor
+/// remainder of the kernel over it is below tolerance / (4 pi) for all of a group of directions; across the
+/// horizon, where only a band of nodes is concerned, half the tolerance for all of the band. The error is
+/// then below about `tolerance` times the mean of the picture's channel plus the result: the figure returned
+/// adds up what was allowed where it was, and is usually half of that. The error itself, whose signs
+/// alternate, is about a hundredth. `tolerance` in (0, 1]. Counts nodes and points as evaluations, those of
+/// 16 directions that lie within .1 rad together as one.
+LdTreeError ld_exact(const MomentTree& source, double alpha, double tolerance,
+                     std::span<const glm::dvec3> directions, std::span<double> rgb_out,
+                     std::uint64_t& evaluations);
 
 /// The same sum over part of a sphere, not divided by anything: what the texels of `part` add to LD. Relative
 /// error below 1e-5.

@@ -1,6 +1,7 @@
 #pragma once
 // An environment as blocks of small constant patches, for exact sums over it.
 
+#include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <span>
@@ -8,6 +9,7 @@
 
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
+#include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/quadrature.hpp"
 
 namespace pbr {
@@ -34,7 +36,8 @@ struct Cone {
 /// The angle in [0, pi] between unit vectors that lie `chord` apart; chords a rounding above 2 count as 2.
 double angle_of_chord(double chord);
 
-/// A picture cut into blocks of up to 8 x 8 texels. Keeps a view: the picture must outlive it.
+/// A picture cut into square blocks, 4 texels a side and up to 16 in large pictures, so that their number
+/// stays bounded. Keeps a view: the picture must outlive it.
 class PatchBlocks {
   public:
     /// Blocks of a picture of any size from 1 x 1.
@@ -49,6 +52,23 @@ class PatchBlocks {
     /// Of block 0 … count() - 1.
     const Cone& cone(int block) const { return blocks_[block].cone; }
 
+    /// How whole pictures are cut: blocks are numbered by faces, rows and columns. 0 faces where single
+    /// texels were given.
+    struct Grid {
+        int faces = 0, columns = 0, rows = 0;
+        int side = 1;  ///< texels a block, but for the last of a row or column
+    };
+    /// As cut.
+    const Grid& grid() const { return grid_; }
+
+    /// A rectangle of a grid's blocks: columns [left, right), rows [top, bottom).
+    struct Cells {
+        int face, left, top, right, bottom;
+    };
+    /// The largest chord from a unit vector in the middle column of some cells (of a cube map: anywhere in
+    /// them) to a point of them; 2 where they go around more than a quarter of an equirect.
+    double reach(const Cells& cells, const glm::dvec3& from) const;
+
     /// The largest angle a texel of the picture spans along either axis, radians.
     double texel_angle() const { return texel_angle_; }
 
@@ -59,24 +79,47 @@ class PatchBlocks {
     /// held.
     void points(int block, int order_index, PatchPoints& points) const;
 
+    /// The same of the texel in the middle of a block alone.
+    void middle_points(int block, int order_index, PatchPoints& points) const;
+
+    /// As points(), after what `points` held.
+    void append_points(int block, int order_index, PatchPoints& points) const;
+
   private:
     struct Block {
         int face, x, y;  ///< first texel
         int width, height;
         Cone cone;
     };
-    void add_blocks(int face, int width, int height);
+    /// Points along an axis of an equirect. The solid angle of a point is the product of its weights.
+    struct AxisPoints {
+        std::vector<double> sines, cosines, weights;
+    };
+    /// Of texels [first, first + count).
+    AxisPoints longitudes(int first, int count, const QuadratureRule& rule) const;
+    AxisPoints colatitudes(int first, int count, const QuadratureRule& rule) const;
+    void add_blocks(int faces, int width, int height);
     void add_block(Block block);
-    glm::dvec3 direction(int face, double x,
-                         double y) const;  ///< of a continuous texel coordinate, unit, world
-    void equirect_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const;
-    void cube_points(const Block& block, const QuadratureRule& rule, PatchPoints& points) const;
+    void tabulate_axes();
+    void tabulate_halves();
+    /// Unit vector in the world of a place in half texels.
+    glm::dvec3 direction(int face, int half_x, int half_y) const;
+    void append(const Block& block, int order_index, PatchPoints& points) const;
+    void equirect_points(const Block& block, int order_index, std::size_t at, PatchPoints& points) const;
+    void cube_points(const Block& block, const QuadratureRule& rule, std::size_t at,
+                     PatchPoints& points) const;
 
     EquirectView equirect_;
     CubeView cube_;
     double texel_angle_;
     std::vector<Block> blocks_;
+    Grid grid_;
     std::vector<QuadratureRule> rules_;  ///< of kOrders
+    /// Of whole equirects, for the orders that most points have; and their sines and cosines at all multiples
+    /// of half a texel, where blocks have their corners and middles.
+    static constexpr int kTabulated = 6;
+    std::array<AxisPoints, kTabulated> longitudes_, colatitudes_;
+    std::vector<SinCos> half_columns_, half_rows_;
 };
 
 }  // namespace pbr

@@ -1,0 +1,37 @@
+#pragma once
+// Points of patches, and their moments.
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+
+#include "pbr/ibl/moment_tree.hpp"
+#include "pbr/ibl/patches.hpp"
+
+namespace pbr {
+
+/// A block of an equirect's texels and its points: d = right sin(b) sin(a) + up cos(b) + ahead sin(b) cos(a)
+/// for longitudes a and colatitudes b, order x order a texel.
+struct LatLongPatch {
+    struct Axis {
+        const double *sines, *cosines, *weights;
+    };
+    Axis columns, rows;
+    glm::dvec3 right, up, ahead;
+    const float* rgb;    ///< first texel
+    std::size_t stride;  ///< floats from a row of texels to the next
+    int width, height;   ///< texels
+    int order;
+};
+
+/// Writes a block's points from `at` on; the arrays are long enough.
+void fill_lat_long_points(const LatLongPatch& patch, std::size_t at, PatchPoints& points);
+
+/// Sums over points of weight times radiance r, g, b, and of weight alone, each times kMonomials of point -
+/// centre.
+using PatchMoments = std::array<std::array<double, 4>, kMonomials.size()>;
+
+/// Moments of points about a centre. Bits do not depend on the vector width.
+PatchMoments moments_of_points(const PatchPoints& points, const glm::dvec3& centre);
+
+}  // namespace pbr
