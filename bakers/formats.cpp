@@ -9,11 +9,13 @@ namespace pbrbake {
 
 std::span<const Format> formats() {
     using enum PixelType;
-    static const std::array<Format, 5> table{{{"exr", {half, float32}, 1024, true},
+    static const std::array<Format, 7> table{{{"exr", {half, float32}, 1024, true},
                                               {"ktx2", {half, float32, unorm16}, 4, true},
                                               {"dds", {half, float32, unorm16}, 4, true},
                                               {"png", {unorm16}, 4, false},
-                                              {"hdr", {rgbe}, 3, false}}};
+                                              {"hdr", {rgbe}, 3, false},
+                                              {"json", {}, 0, false},
+                                              {"gltf", {}, 0, false}}};
     return table;
 }
 
@@ -30,7 +32,7 @@ std::string_view pixel_name(PixelType pixel) {
 PixelType settle_pixel(std::string_view format, std::string_view pixel) {
     const Format* container = find_format(format);
     if (!container) throw Error(ExitCode::invalid_job, "", "unknown format '" + std::string(format) + "'");
-    if (pixel == "auto") return container->pixels.front();
+    if (pixel == "auto") return container->is_document() ? PixelType::float32 : container->pixels.front();
     std::string allowed = "\"auto\"";
     for (const PixelType type : container->pixels) {
         if (pixel == pixel_name(type)) return type;
