@@ -23,6 +23,10 @@ void clean_falloff(pbr::Falloff& law, int line, std::vector<Diagnostic>& flags) 
             flag(flags, Severity::warning, "attenuation_negative", line,
                  "has a negative attenuation; it became 0");
         }
+    constexpr double kVanishing = 1e-30;  // 1 / it would be no light's
+    for (double* coefficient : {&law.constant, &law.linear, &law.quadratic})
+        if (*coefficient < kVanishing) *coefficient = 0;
+    law.power = std::clamp(law.power, 0., 64.);
     if (law.power == 0 && law.constant == 0 && law.linear == 0 && law.quadratic == 0)
         flag(flags, Severity::warning, "attenuations_zero", line,
              "has attenuations of 0 alone, which would be 1 / 0; read as the constant 1");

@@ -25,6 +25,9 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kHalfMax = 65504;
 /// A light counts as gone where it gives 1/256 of what its reference white gets: the last step of 8 bits.
 constexpr double kLastStep = 1. / 256;
+/// A colour or intensity below it is none.
+constexpr double kDarkest = 1e-30;
+constexpr double kFarthest_m = 1e12, kNearest_m = 1e-9;
 
 double decoded(double value, parse::ColourEncoding encoding) {
     const double size = std::abs(value);
@@ -127,7 +130,7 @@ class Conversion {
             add(Severity::warning, "colour_negative", "has a negative colour component; it became 0");
         }
         const double luminance = pbr::luminance_of_rgb(rgb);
-        if (!(luminance > 0)) {
+        if (!(luminance > kDarkest)) {
             result_.rgb = glm::dvec3(1);
             return 0;
         }
@@ -143,6 +146,8 @@ class Conversion {
         clean_falloff(law, light_.line, result_.flags);
         double factor = 1;
         result_.law = in_metres(law, anchor_.unit_m, factor);
+        if (pbr::has_range(result_.law) && result_.law.range < kNearest_m && !result_.has("range_zero"))
+            add(Severity::warning, "range_zero", "has a range of next to nothing: it lights nothing");
         if (light_.spot) {
             pbr::SpotFalloff spot = *light_.spot;
             if (clean_spot(spot, light_.line, result_.flags))
@@ -153,7 +158,8 @@ class Conversion {
         const double intensity = light_.intensity * luminance;
         if (intensity < 0) result_.is_negative = !result_.is_negative;
         result_.law_lx = std::abs(intensity) * worth() * factor;
-        result_.is_dark = !(result_.law_lx > 0) || result_.has("cone_zero") || result_.has("range_zero");
+        result_.is_dark =
+            !(result_.law_lx > kDarkest) || result_.has("cone_zero") || result_.has("range_zero");
         if (result_.is_dark) result_.is_negative = false;
     }
 
@@ -225,13 +231,18 @@ class Conversion {
     }
 
     void set_span() {
-        result_.span_m =
-            pbr::distances_that_matter(result_.law, result_.law_lx, kLastStep * anchor_.reference_lx);
-        // A light too dim to reach the last step still has a law; half its range, or its own metre, then.
+        // A physical range is meant in its own units, whatever the exposure.
+        const bool is_whole = light_.unit != LightUnit::relative && pbr::has_range(result_.law);
+        const double threshold = is_whole ? 1e-30 * result_.law_lx : kLastStep * anchor_.reference_lx;
+        result_.span_m = pbr::distances_that_matter(result_.law, result_.law_lx, threshold);
+        // A light too dim to reach the last step still has a law: over its range, or over a metre.
         if (!(result_.span_m.far > 0)) {
             const double reach = pbr::has_range(result_.law) ? result_.law.range : 1;
             result_.span_m = {.05 * reach, .9 * reach};
         }
+        // No scene is larger; squares stay finite.
+        result_.span_m.far = std::min(result_.span_m.far, kFarthest_m);
+        result_.span_m.near = std::min(result_.span_m.near, .05 * kFarthest_m);
         if (params_.far_m > 0) result_.span_m.far = params_.far_m;
         if (params_.near_m > 0) result_.span_m.near = params_.near_m;
         if (result_.span_m.near >= result_.span_m.far) result_.span_m.near = .05 * result_.span_m.far;
@@ -249,9 +260,9 @@ class Conversion {
         if (params_.shape == Shape::disk || params_.shape == Shape::rectangle) {
             result_.fit = fitted(params_.shape == Shape::disk ? EmitterShape::disk : EmitterShape::rectangle,
                                  LightWindow::quartic_squared);
-        } else if (params_.shape == Shape::automatic && !has_shape && !result_.point->is_exact &&
-                   result_.point->error.rms > anchor_.tolerance_stops) {
-            result_.fit = fitted(EmitterShape::disk, LightWindow::quartic_squared);
+        } else if (params_.shape == Shape::automatic && !has_shape && !result_.point->is_exact) {
+            const pbr::LightFit disk = fitted(EmitterShape::disk, LightWindow::quartic_squared);
+            if (disk.is_exact || result_.point->error.rms > anchor_.tolerance_stops) result_.fit = disk;
         }
         // glTF's own window where that is what the file has.
         if (!result_.fit->is_exact && result_.gltf->is_exact && params_.shape == Shape::automatic)

@@ -232,12 +232,16 @@ std::string law_text(const pbr::Falloff& law) {
     } else {
         std::string sum;
         const auto add = [&](double value, const char* of) {
-            if (value > 0) sum += (sum.empty() ? "" : " + ") + n(value) + of;
+            if (value <= 0) return;
+            const bool is_plain = value == 1 && *of != 0;
+            sum += sum.empty() ? "" : " + ";
+            sum += is_plain ? of : n(value) + (*of == 0 ? "" : " ") + of;
         };
         add(law.constant, "");
-        add(law.linear, " d");
-        add(law.quadratic, " d^2");
-        text = sum.empty() || sum == "1" ? "1" : "1 / (" + sum + ")";
+        add(law.linear, "d");
+        add(law.quadratic, "d^2");
+        const bool is_sum = sum.find(' ') != sum.npos;
+        text = sum.empty() || sum == "1" ? "1" : is_sum ? "1 / (" + sum + ")" : "1 / " + sum;
     }
     if (!pbr::has_range(law)) return text;
     const std::string range = n(law.range);

@@ -238,7 +238,7 @@ void source_spot(const Values& values, LegacyLight& light) {
     light.type = LightType::spot;
     double inner = values.number("_inner_cone", 0), outer = values.number("_cone", 0);
     if (inner == 0) inner = 10;
-    if (outer == 0) outer = inner;
+    if (outer < inner) outer = inner;  // as vrad has it: there the inner cone wins
     if (inner == 180 && outer == 180) {
         light.type = LightType::point;
         return;

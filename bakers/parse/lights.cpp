@@ -78,7 +78,13 @@ LightFile parse_text_lights(std::string_view text, const std::string& file, Thre
     if (is_map || head.find("\"classname\"") != head.npos) return parse_entity_lights(text, file);
     if (head.find("LightObject") != head.npos || head.starts_with("Metric"))
         return parse_opengex_lights(text, file);
-    return parse_csv_lights(text, file);
+    const std::string_view line = head.substr(0, head.find_first_of("\r\n"));
+    if (line.find(',') != line.npos) return parse_csv_lights(text, file);
+    throw malformed(
+        file, 1,
+        "begins with " + parse::quoted(line) +
+            ", as no format known does; allowed: COLLADA, glTF, three.js and plain JSON, Quake and "
+            "Source maps, OpenGEX, AC3D, CSV");
 }
 
 }  // namespace
@@ -87,9 +93,16 @@ LightFile parse_lights(std::span<const std::byte> bytes, std::string_view file, 
     const std::string name(file);
     const std::string_view raw(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (raw.starts_with("glTF")) return parse_gltf_lights(json_of(glb_json(raw, name), name), name);
+    if (raw.starts_with("Kaydara"))
+        throw malformed(file, 0, "is FBX, which isn't read; export glTF or COLLADA");
     std::vector<Diagnostic> diagnostics;
     const std::string text = decode_text(bytes, file, diagnostics);
     LightFile lights = parse_text_lights(text, name, three);
+    constexpr double kLeast_m = 1e-6, kMost_m = 1e6;
+    if (!(lights.unit_m >= kLeast_m && lights.unit_m <= kMost_m))
+        throw malformed(file, 0,
+                        "states a length of " + number_text(lights.unit_m) +
+                            " m as its unit; allowed: from 0.000001 to 1000000");
     lights.diagnostics.insert(lights.diagnostics.begin(), diagnostics.begin(), diagnostics.end());
     return lights;
 }

@@ -69,7 +69,7 @@ struct SpotFalloff {
 /// cone; inner = outer is a hard edge. cosine_power is 0 where the cosine is negative. Error 1e-14.
 double spot_falloff_at(const SpotFalloff& law, double cosine);
 
-/// x^p of x >= 0 with bits that no CPU changes; p in [0, 64]. 0^0 is 1. Relative error 1e-13 for x in
+/// x^p of x >= 0 with bits that no CPU changes; p in [0, 1e4]. 0^0 is 1. Relative error 1e-13 for x in
 /// [1e-3, 1e3], growing with p |ln x|; below 1e-300 it is 0.
 double power_exact(double x, double p);
 
