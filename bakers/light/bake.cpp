@@ -60,7 +60,7 @@ std::vector<std::string> documents(const LightParams& params) {
 
 Product bake(const LightParams& params, const Inputs& inputs, Context& context) {
     const SourceImage& source = inputs.at("source");
-    const ConvertedFile file = convert_file(params, source, context.accuracy());
+    const ConvertedFile file = convert_file(params, source, context);
     context.count("lights", file.lights.size());
     Product product;
     product.units = "photometric";

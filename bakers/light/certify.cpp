@@ -64,7 +64,7 @@ const Json* document(const Product& product, std::string_view suffix) {
 
 Certificate certify(const LightParams& params, const Inputs& inputs, const Product& product,
                     Context& context) {
-    const ConvertedFile file = convert_file(params, inputs.at("source"), context.accuracy());
+    const ConvertedFile file = convert_file(params, inputs.at("source"), context);
     const int count = context.certify_fully() ? 4096 : 512;
     Worst all, gltf;
     std::map<std::string, Worst> kinds;

@@ -1,5 +1,8 @@
 #include "bakers/light/converted_file.hpp"
 
+#include <algorithm>
+#include <cstdint>
+
 namespace pbrbake::light {
 namespace {
 
@@ -10,7 +13,7 @@ double tolerance_stops(const Accuracy& accuracy) {
 
 }  // namespace
 
-ConvertedFile convert_file(const LightParams& params, const SourceImage& source, const Accuracy& accuracy) {
+ConvertedFile convert_file(const LightParams& params, const SourceImage& source, Context& context) {
     const parse::LightFile file =
         parse::parse_lights(source.bytes, source.name, static_cast<parse::ThreeLights>(params.three_lights));
     ConvertedFile converted;
@@ -22,15 +25,24 @@ ConvertedFile convert_file(const LightParams& params, const SourceImage& source,
     Anchor& anchor = converted.anchor;
     anchor.unit_m = params.unit_m > 0 ? params.unit_m : file.unit_m;
     anchor.efficacy_lm_per_w = params.efficacy_lm_per_w;
-    anchor.tolerance_stops = tolerance_stops(accuracy);
+    anchor.tolerance_stops = tolerance_stops(context.accuracy());
     anchor.reference_lx = params.reference_illuminance_lx > 0 ? params.reference_illuminance_lx
                           : params.unit_cd > 0 ? params.unit_cd / (anchor.unit_m * anchor.unit_m)
                                                : reference_illuminance_lx(params.ev100);
     converted.ev100 = ev100_of_reference(anchor.reference_lx);
-    for (const parse::LegacyLight& light : file.lights) {
-        converted.is_anchored = converted.is_anchored || light.unit == parse::LightUnit::relative;
-        converted.lights.push_back(convert(light, file.up, anchor, params));
-    }
+    converted.is_anchored = std::ranges::any_of(file.lights, [](const parse::LegacyLight& light) {
+        return light.unit == parse::LightUnit::relative;
+    });
+    converted.lights.resize(file.lights.size());
+    context.expect(static_cast<double>(file.lights.size()));
+    context.parallel_for(static_cast<std::int64_t>(file.lights.size()), 8,
+                         [&](std::int64_t begin, std::int64_t end) {
+                             for (std::int64_t i = begin; i < end; ++i) {
+                                 const auto k = static_cast<std::size_t>(i);
+                                 converted.lights[k] = convert(file.lights[k], file.up, anchor, params);
+                             }
+                             context.advance(static_cast<double>(end - begin));
+                         });
     return converted;
 }
 

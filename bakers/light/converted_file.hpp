@@ -5,7 +5,7 @@
 
 namespace pbrbake::light {
 
-/// Parses and converts a source. The same for the same bytes, parameters and accuracy.
-ConvertedFile convert_file(const LightParams& params, const SourceImage& source, const Accuracy& accuracy);
+/// Parses and converts a source, light by light on the context's threads.
+ConvertedFile convert_file(const LightParams& params, const SourceImage& source, Context& context);
 
 }  // namespace pbrbake::light

@@ -169,8 +169,9 @@ Json gltf_light(const ConvertedLight& light) {
     json["intensity"] = rounded(fitted.intensity * largest);
     if (std::isfinite(fitted.attenuation_radius)) json["range"] = rounded(fitted.attenuation_radius);
     if (light.spot) {
-        // glTF wants the inner angle below the outer one.
-        const double outer = std::max(light.spot->outer_rad, 1e-6);
+        // glTF wants the inner angle below the outer one,
+        // and the outer one at most pi / 2, which nine digits would round up.
+        const double outer = std::clamp(light.spot->outer_rad, 1e-6, 1.5707963);
         json["spot"] = {{"innerConeAngle", rounded(std::min(light.spot->inner_rad, outer * (1 - 1e-6)))},
                         {"outerConeAngle", rounded(outer)}};
     }

@@ -74,15 +74,16 @@ std::array<double, 2> zoom(std::array<double, 2> low, std::array<double, 2> high
                            const Second& second, const Cost& cost) {
     constexpr int kSteps = 24, kRounds = 12;
     const std::array<double, 2> lowest = low, highest = high;
+    const std::array<int, 2> steps{low[0] < high[0] ? kSteps : 0, low[1] < high[1] ? kSteps : 0};
     std::array<double, 2> best{low};
     double least = kInfinity;
     for (int round = 0; round < kRounds; ++round) {
         const std::array<double, 2> step{(high[0] - low[0]) / kSteps, (high[1] - low[1]) / kSteps};
         std::vector<decltype(second(0.))> columns;
-        for (int j = 0; j <= kSteps; ++j) columns.push_back(second(low[1] + step[1] * j));
-        for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; j <= steps[1]; ++j) columns.push_back(second(low[1] + step[1] * j));
+        for (int i = 0; i <= steps[0]; ++i) {
             const auto row = first(low[0] + step[0] * i);
-            for (int j = 0; j <= kSteps; ++j) {
+            for (int j = 0; j <= steps[1]; ++j) {
                 const double found = cost(row, columns[static_cast<std::size_t>(j)]);
                 if (found < least) least = found, best = {low[0] + step[0] * i, low[1] + step[1] * j};
             }

@@ -124,6 +124,18 @@ TEST(HardLight, InnerBeyondOuterIsAHardEdgeAtTheOuter) {
               cone["outerConeAngle"].get<double>());  // as glTF wants it
 }
 
+TEST(HardLight, ConesOf90DegreesStayInGltfsBounds) {
+    for (const char* fields :
+         {R"("type": "spot", "outer_deg": 90)", R"("type": "spot", "outer_deg": 90, "spot_exponent": 2)",
+          R"("type": "spot", "outer_deg": 170, "inner_deg": 160)"}) {
+        const Baked baked = bake_one(fields);
+        const Json& cone = baked.gltf()["extensions"]["KHR_lights_punctual"]["lights"][0]["spot"];
+        EXPECT_LE(cone["outerConeAngle"].get<double>(), std::acos(0.)) << fields;
+        EXPECT_GE(cone["innerConeAngle"].get<double>(), 0);
+        EXPECT_LT(cone["innerConeAngle"].get<double>(), cone["outerConeAngle"].get<double>());
+    }
+}
+
 TEST(HardLight, NarrowConeIsFlagged) {
     EXPECT_TRUE(has_flag(bake_one(R"("type": "spot", "outer_deg": 1)").light(), "cone_narrow"));
     EXPECT_FALSE(has_flag(bake_one(R"("type": "spot", "outer_deg": 3)").light(), "cone_narrow"));
