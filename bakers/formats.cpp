@@ -9,12 +9,14 @@ namespace pbrbake {
 
 std::span<const Format> formats() {
     using enum PixelType;
-    static const std::array<Format, 6> table{{{"exr", {half, float32}, 1024, true},
+    static const std::array<Format, 8> table{{{"exr", {half, float32}, 1024, true},
                                               {"ktx2", {half, float32, unorm16}, 4, true},
                                               {"dds", {half, float32, unorm16}, 4, true},
                                               {"png", {unorm16}, 4, false},
                                               {"hdr", {rgbe}, 3, false},
-                                              {"h", {half, float32, unorm16}, 4, false}}};
+                                              {"h", {half, float32, unorm16}, 4, false},
+                                              {"json", {}, 0, false},
+                                              {"gltf", {}, 0, false}}};
     return table;
 }
 
@@ -31,7 +33,7 @@ std::string_view pixel_name(PixelType pixel) {
 PixelType settle_pixel(std::string_view format, std::string_view pixel) {
     const Format* container = find_format(format);
     if (!container) throw Error(ExitCode::invalid_job, "", "unknown format '" + std::string(format) + "'");
-    if (pixel == "auto") return container->pixels.front();
+    if (pixel == "auto") return container->is_document() ? PixelType::float32 : container->pixels.front();
     std::string allowed = "\"auto\"";
     for (const PixelType type : container->pixels) {
         if (pixel == pixel_name(type)) return type;

@@ -5,6 +5,7 @@
 
 #include "bakers/dfg/dfg.hpp"
 #include "bakers/ies/ies.hpp"
+#include "bakers/light/light.hpp"
 #include "bakers/params.hpp"
 #include "bakers/probe/probe.hpp"
 
@@ -48,7 +49,12 @@ std::span<const Baker> bakers() {
             make_baker("ies", ies::kAlgorithmVersion, ies::check, ies::reads, ies::bake, ies::certify);
         ies.follow = ies::follow;
         ies.documents = [](const Json& json) { return ies::documents(read_params<ies::IesParams>(json)); };
-        return std::array{std::move(dfg), std::move(probe), std::move(ies)};
+        Baker light = make_baker("light", light::kAlgorithmVersion, light::check, light::reads, light::bake,
+                                 light::certify);
+        light.documents = [](const Json& json) {
+            return light::documents(read_params<light::LightParams>(json));
+        };
+        return std::array{std::move(dfg), std::move(probe), std::move(ies), std::move(light)};
     }();
     return list;
 }

@@ -29,7 +29,9 @@ ExitCode one_shot_command(const std::string& kind, const Arguments& arguments) {
 
     const auto output = given->find("output");
     if (!output)
-        throw Error(ExitCode::usage, "-o", "missing; give the product's file, as in -o " + kind + ".exr");
+        throw Error(
+            ExitCode::usage, "-o",
+            "missing; give the product's file, as in -o " + kind + (kind == "light" ? ".json" : ".exr"));
     std::vector<job::FlagText> flags;
     for (const auto& [name, text] : given->texts())
         if (name != "output" && !is_run_option(name)) flags.push_back({name, text});

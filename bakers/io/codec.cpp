@@ -73,7 +73,8 @@ void check_info(const Format& format, const FileInfo& info) {
 const std::vector<std::string>& output_formats() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list;
-        for (const Format& format : formats()) list.emplace_back(format.name);
+        for (const Format& format : formats())
+            if (!format.is_document()) list.emplace_back(format.name);
         return list;
     }();
     return names;

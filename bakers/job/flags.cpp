@@ -178,7 +178,8 @@ std::string name_from(const std::filesystem::path& output) {
 
 /// Puts the format that the output's extension says into the bake, if none was given; refuses what disagrees.
 void settle_format(Json& bake, const std::filesystem::path& output) {
-    const Json& formats = job_schema().root()["definitions"]["format"];
+    const Json& formats =
+        job_schema().resolve(definition(bake["kind"].get_ref<const std::string&>())["properties"]["format"]);
     const std::string extension = output.extension().string();
     const std::string format = extension.empty() ? "" : extension.substr(1);
     if (output.filename().empty() || output.stem().empty() || !convert(format, formats))

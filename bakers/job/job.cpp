@@ -93,7 +93,7 @@ class Reading {
         try {
             bake.pixel_stated = json["pixel"] != "auto";
             bake.pixel = settle_pixel(bake.format, json["pixel"].get<std::string>());
-            json["pixel"] = pixel_name(bake.pixel);
+            if (!find_format(bake.format)->is_document()) json["pixel"] = pixel_name(bake.pixel);
         } catch (const Error& error) {
             add(at + "/pixel", error.message());
         }

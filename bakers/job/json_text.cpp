@@ -15,7 +15,7 @@ namespace {
 /// Follows a parse, keeps the keys of every open object, and refuses what nlohmann's parser lets through.
 class StrictReading {
   public:
-    explicit StrictReading(const std::string& file) : file_(file) {}
+    StrictReading(const std::string& file, int deepest) : file_(file), deepest_(deepest) {}
 
     bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
         using Event = Json::parse_event_t;
@@ -23,9 +23,9 @@ class StrictReading {
             case Event::object_start:
             case Event::array_start:
                 step();
-                if (depth >= kDeepestNesting)
+                if (depth >= deepest_)
                     throw Error(ExitCode::invalid_job, file_,
-                                "nested deeper than " + std::to_string(kDeepestNesting) + " levels");
+                                "nested deeper than " + std::to_string(deepest_) + " levels");
                 open_.push_back({});
                 open_.back().is_array = event == Event::array_start;
                 break;
@@ -69,6 +69,7 @@ class StrictReading {
     }
 
     const std::string& file_;
+    int deepest_;
     std::vector<Open> open_;
 };
 
@@ -93,9 +94,9 @@ std::string reason(std::string_view what) {
 
 }  // namespace
 
-Json parse_json(std::string_view text, const std::string& file) {
+Json parse_json(std::string_view text, const std::string& file, int deepest) {
     try {
-        return Json::parse(text, StrictReading(file));
+        return Json::parse(text, StrictReading(file, deepest));
     } catch (const Json::parse_error& error) {
         throw Error(ExitCode::invalid_job, position(file, text, error.byte),
                     "not JSON: " + reason(error.what()));

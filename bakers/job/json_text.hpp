@@ -14,7 +14,7 @@ inline constexpr std::size_t kLargestText = std::size_t{16} << 20;  ///< bytes
 inline constexpr int kDeepestNesting = 32;
 
 /// Throws Error(invalid_job, "file:line:column", …), or "file#pointer" for a key given twice.
-Json parse_json(std::string_view text, const std::string& file);
+Json parse_json(std::string_view text, const std::string& file, int deepest = kDeepestNesting);
 
 /// A file's bytes. Throws Error(unreadable_input) naming it if it is absent, not a file, or larger than
 /// kLargestText.

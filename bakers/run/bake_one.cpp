@@ -26,6 +26,11 @@ fs::path document_file(const job::Bake& bake, const std::string& suffix) {
     return fs::path(bake.file).stem().string() + "." + suffix;
 }
 
+/// Whether a document is the bake's product itself, as its format has no pictures.
+bool is_main_document(const job::Bake& bake, const std::string& suffix) {
+    return find_format(bake.format)->is_document() && suffix == bake.format;
+}
+
 /// A bake on its way: what one stage leaves for the next.
 class BakeRun {
   public:
@@ -172,14 +177,19 @@ class BakeRun {
             outputs_.push_back({file, io::hash_bytes(bytes.data(), bytes.size()), bytes.size()});
             files_.push_back(std::move(bytes));
         }
+        // A product without images is the document of its format; the main file comes first.
+        std::ranges::stable_partition(product_.documents,
+                                      [&](const Document& document) { return is_main(document.suffix); });
         for (const Document& document : product_.documents) add_document(document);
     }
+
+    bool is_main(const std::string& suffix) const { return is_main_document(bake_, suffix); }
 
     void add_document(const Document& document) {
         const std::string text = document.json.is_null() ? document.text : job::to_text(document.json);
         const fs::path file = document_file(bake_, document.suffix);
         for (const job::Bake& other : job_.bakes)
-            if (other.file == file)
+            if (other.file == file && !(&other == &bake_ && is_main(document.suffix)))
                 throw Error(ExitCode::unwritable_output, file.string(),
                             "is the product of bake \"" + other.name + "\" too; rename one of the two");
         const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
@@ -250,7 +260,8 @@ BakeReport plan_bake(const job::Job& job, const job::Bake& bake) {
     report.writes.push_back((job.output / bake.file).lexically_normal());
     if (bake.baker->documents)
         for (const std::string& suffix : bake.baker->documents(bake.json))
-            report.writes.push_back((job.output / document_file(bake, suffix)).lexically_normal());
+            if (!is_main_document(bake, suffix))
+                report.writes.push_back((job.output / document_file(bake, suffix)).lexically_normal());
     if (job.record == job::Record::sidecar) report.writes.push_back(sidecar_file(job, bake));
     return report;
 }

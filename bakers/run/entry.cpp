@@ -72,10 +72,11 @@ Json entry(const job::Job& job, const job::Bake& bake, std::span<const job::Sour
               {"params", bake.params},
               {"working_space", job.working_space},
               {"inputs", inputs_json(sources, inputs)},
-              {"outputs", outputs_json(outputs)},
-              {"pixel", product.pixel ? Json(pixel_name(*product.pixel)) : bake.params["pixel"]},
-              {"units", product.units},
-              {"scale", product.scale}};
+              {"outputs", outputs_json(outputs)}};
+    if (!product.images.empty())
+        json["pixel"] = product.pixel ? Json(pixel_name(*product.pixel)) : bake.params["pixel"];
+    json["units"] = product.units;
+    json["scale"] = product.scale;
     for (const auto& [key, value] : product.properties.items()) json[key] = value;
     json["repairs"] = repairs_json(inputs);
     json["certificate"] = certificate_json(certificate, work);

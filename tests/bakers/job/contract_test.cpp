@@ -8,6 +8,7 @@
 #include "bakers/ies/params.hpp"
 #include "bakers/io/io.hpp"
 #include "bakers/job/schema.hpp"
+#include "bakers/light/params.hpp"
 #include "bakers/probe/params.hpp"
 #include "bakers/registry.hpp"
 
@@ -68,11 +69,23 @@ TEST(JobSchema, NamesEnumerationsAsParamsDo) {
     expect_enums_agree<dfg::DfgParams>("dfg");
     expect_enums_agree<probe::ProbeParams>("probe");
     expect_enums_agree<ies::IesParams>("ies");
+    expect_enums_agree<light::LightParams>("light");
 }
 
 TEST(JobSchema, ListsTheFormatsAndColourSpacesOfIo) {
     EXPECT_EQ(strings(definition("format")["enum"]), io::output_formats());
     EXPECT_EQ(strings(definition("probe")["properties"]["colour_space"]["enum"]), io::colour_spaces());
+}
+
+TEST(JobSchema, GivesDocumentsFormatsOfTheirOwnAndNoPixels) {
+    EXPECT_EQ(strings(definition("light")["properties"]["format"]["enum"]),
+              (std::vector<std::string>{"json", "gltf"}));
+    for (const char* name : {"json", "gltf"}) {
+        ASSERT_NE(find_format(name), nullptr);
+        EXPECT_TRUE(find_format(name)->is_document());
+        EXPECT_NO_THROW(settle_pixel(name, "auto"));
+        EXPECT_THROW(settle_pixel(name, "half"), Error);
+    }
 }
 
 TEST(JobSchema, NamesEveryPixelTypeOfAFormat) {

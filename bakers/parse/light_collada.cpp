@@ -1,0 +1,211 @@
+// Lights of a COLLADA document (1.4.1 specification, "Lighting"): attenuation 1 / (constant + linear d +
+// quadratic d^2), a spot's cos^falloff_exponent inside falloff_angle, which exporters write as the cone's
+// full angle (Blender, OpenCOLLADA). Colours hold the intensity; they have no unit.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <pugixml.hpp>
+#include <set>
+
+#include "bakers/parse/light_formats.hpp"
+#include "bakers/parse/scene_transform.hpp"
+#include "bakers/parse/text.hpp"
+#include "pbr/numerics/elementary.hpp"
+
+namespace pbrbake::parse {
+namespace {
+
+constexpr int kDeepest = 128;
+
+class Collada {
+  public:
+    Collada(std::string_view text, const std::string& file) : file_(file) {
+        for (std::size_t i = text.find('\n'); i != text.npos; i = text.find('\n', i + 1)) ends_.push_back(i);
+        const pugi::xml_parse_result result =
+            document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
+        if (!result)
+            throw malformed(file, line_at(static_cast<std::size_t>(result.offset)),
+                            std::string("is no XML: ") + result.description());
+        root_ = document_.child("COLLADA");
+        if (!root_)
+            throw malformed(file, 0,
+                            "found the element " + parse::quoted(document_.document_element().name()) +
+                                "; allowed: COLLADA");
+    }
+
+    LightFile read() {
+        LightFile lights;
+        lights.format = "COLLADA";
+        lights.meaning =
+            "a colour of 1 lights a white surface that faces the light, where nothing fades it, to "
+            "white; COLLADA's lights have no unit";
+        const pugi::xml_node asset = root_.child("asset");
+        if (const pugi::xml_attribute meter = asset.child("unit").attribute("meter")) {
+            const auto value = finite_number(trimmed(meter.value()));
+            if (!value || !(*value > 0))
+                throw malformed(file_, line_of(asset.child("unit")),
+                                "found " + parse::quoted(meter.value()) +
+                                    " as metres of a unit; allowed: a number above 0");
+            lights.unit_m = *value;
+            lights.unit_is_stated = true;
+        }
+        if (trimmed(asset.child_value("up_axis")) == "Z_UP") lights.up = UpAxis::z;
+        for (const pugi::xml_node light : root_.child("library_lights").children("light"))
+            if (light.attribute("id")) lights_.emplace(light.attribute("id").value(), light);
+        for (const pugi::xml_node scene : root_.child("library_visual_scenes").children("visual_scene"))
+            for (const pugi::xml_node node : scene.children("node")) walk(node, glm::dmat4(1), 0, lights);
+        for (const auto& [id, node] : lights_)
+            if (!used_.contains(id)) {
+                LegacyLight light = read_light(node);
+                light.diagnostics.push_back({Severity::note, "not_placed", light.line,
+                                             "is on no node of the scene; converted at the origin"});
+                lights.lights.push_back(std::move(light));
+            }
+        return lights;
+    }
+
+  private:
+    int line_at(std::size_t offset) const {
+        return 1 + static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin());
+    }
+    int line_of(const pugi::xml_node& node) const {
+        return node.offset_debug() < 0 ? 0 : line_at(static_cast<std::size_t>(node.offset_debug()));
+    }
+
+    std::vector<double> numbers(const pugi::xml_node& node, std::size_t least, std::size_t most) const {
+        std::vector<double> list;
+        std::string_view rest = node.child_value();
+        for (;;) {
+            const std::size_t begin = rest.find_first_not_of(" \t\r\n");
+            if (begin == rest.npos) break;
+            rest.remove_prefix(begin);
+            const std::size_t end = std::min(rest.find_first_of(" \t\r\n"), rest.size());
+            const auto value = finite_number(rest.substr(0, end));
+            if (!value)
+                throw malformed(file_, line_of(node),
+                                "found " + parse::quoted(rest.substr(0, end)) + " in <" + node.name() +
+                                    ">; allowed: finite numbers");
+            list.push_back(*value);
+            rest.remove_prefix(end);
+        }
+        if (list.size() < least || list.size() > most)
+            throw malformed(file_, line_of(node),
+                            "found " + std::to_string(list.size()) + " numbers in <" + node.name() +
+                                ">; allowed: " + std::to_string(least));
+        return list;
+    }
+    double number(const pugi::xml_node& parent, const char* name, double fallback) const {
+        const pugi::xml_node node = parent.child(name);
+        return node ? numbers(node, 1, 1).front() : fallback;
+    }
+
+    LegacyLight read_light(const pugi::xml_node& node) const {
+        LegacyLight light;
+        light.line = line_of(node);
+        light.name = node.attribute("name") ? node.attribute("name").value() : node.attribute("id").value();
+        const pugi::xml_node common = node.child("technique_common"), kind = common.first_child();
+        const std::string name = kind.name();
+        if (name == "point" || name == "spot") {
+            light.falloff = {number(kind, "constant_attenuation", 1), number(kind, "linear_attenuation", 0),
+                             number(kind, "quadratic_attenuation", 0)};
+        } else if (name == "directional") {
+            light.type = LightType::directional;
+        } else if (name == "ambient") {
+            light.type = LightType::ambient;
+        } else {
+            throw malformed(file_, light.line,
+                            "found a light of kind " + parse::quoted(name) +
+                                "; allowed: point, spot, directional, ambient");
+        }
+        if (const pugi::xml_node colour = kind.child("color")) {
+            const std::vector<double> rgb = numbers(colour, 3, 4);
+            light.colour = {rgb[0], rgb[1], rgb[2]};
+        }
+        if (name == "spot") {
+            light.type = LightType::spot;
+            light.spot = {pbr::SpotLaw::cosine_power, 0,
+                          number(kind, "falloff_angle", 180) / 2 * kRadPerDegree,
+                          number(kind, "falloff_exponent", 0)};
+        }
+        read_extras(node, light);
+        return light;
+    }
+
+    /// FCollada's multiplier, and Blender's habit of writing its blend as the exponent.
+    void read_extras(const pugi::xml_node& node, LegacyLight& light) const {
+        for (const pugi::xml_node extra : node.children("extra"))
+            for (const pugi::xml_node technique : extra.children("technique")) {
+                const std::string_view profile = technique.attribute("profile").value();
+                if (profile == "FCOLLADA") light.intensity *= number(technique, "intensity", 1);
+                if (profile == "blender" && light.spot)
+                    light.diagnostics.push_back({Severity::warning, "blender_exponent", light.line,
+                                                 "is Blender's, which wrote the blend of its cone as "
+                                                 "falloff_exponent; read as the exponent "
+                                                 "that COLLADA says it is"});
+            }
+    }
+
+    glm::dmat4 transform_of(const pugi::xml_node& node) const {
+        glm::dmat4 product(1);
+        for (const pugi::xml_node step : node.children()) {
+            const std::string_view name = step.name();
+            if (name == "matrix") {
+                product = product * matrix_of(numbers(step, 16, 16), true);
+            } else if (name == "translate") {
+                const auto v = numbers(step, 3, 3);
+                product = product * matrix_of({v[0], v[1], v[2]}, {0, 0, 0, 1}, glm::dvec3(1));
+            } else if (name == "scale") {
+                const auto v = numbers(step, 3, 3);
+                product = product * matrix_of(glm::dvec3(0), {0, 0, 0, 1}, {v[0], v[1], v[2]});
+            } else if (name == "rotate") {
+                const auto v = numbers(step, 4, 4);
+                const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+                if (!(length > 0)) continue;
+                const pbr::SinCos half = pbr::sin_cos_pi(std::fmod(v[3], 720.) / 360);
+                product = product * matrix_of(glm::dvec3(0),
+                                              {v[0] / length * half.sin, v[1] / length * half.sin,
+                                               v[2] / length * half.sin, half.cos},
+                                              glm::dvec3(1));
+            }
+        }
+        return product;
+    }
+
+    void walk(const pugi::xml_node& node, const glm::dmat4& above, int depth, LightFile& lights) {
+        if (depth == kDeepest)
+            throw malformed(file_, line_of(node),
+                            "nests nodes deeper than " + std::to_string(kDeepest) + " levels");
+        const glm::dmat4 world = above * transform_of(node);
+        for (const pugi::xml_node instance : node.children("instance_light")) {
+            std::string id = instance.attribute("url").value();
+            if (id.starts_with('#')) id.erase(0, 1);
+            const auto found = lights_.find(id);
+            if (found == lights_.end())
+                throw malformed(file_, line_of(instance),
+                                "places the light " + parse::quoted(id) + ", which isn't there");
+            if (lights.lights.size() == kMostLights)
+                throw malformed(file_, line_of(instance), "is past 100000 lights");
+            LegacyLight light = read_light(found->second);
+            place(light, world);
+            used_.insert(id);
+            lights.lights.push_back(std::move(light));
+        }
+        for (const pugi::xml_node child : node.children("node")) walk(child, world, depth + 1, lights);
+    }
+
+    const std::string& file_;
+    std::vector<std::size_t> ends_;  ///< of lines
+    pugi::xml_document document_;
+    pugi::xml_node root_;
+    std::map<std::string, pugi::xml_node> lights_;
+    std::set<std::string> used_;
+};
+
+}  // namespace
+
+LightFile parse_collada_lights(std::string_view text, const std::string& file) {
+    return Collada(text, file).read();
+}
+
+}  // namespace pbrbake::parse

@@ -1,0 +1,110 @@
+#include "bakers/parse/lights.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "bakers/job/json_text.hpp"
+#include "bakers/parse/light_formats.hpp"
+#include "bakers/parse/text.hpp"
+
+namespace pbrbake::parse {
+namespace {
+
+/// Deeper than scenes are, and bounded.
+constexpr int kDeepestScene = 512;
+
+Json json_of(std::string_view text, const std::string& file) {
+    try {
+        return job::parse_json(text, file, kDeepestScene);
+    } catch (const Error& error) {
+        throw Error(ExitCode::unreadable_input, error.where(), error.message());
+    }
+}
+
+/// The JSON chunk of a binary glTF (glTF 2.0, 4.4: three little-endian words, then chunks).
+std::string_view glb_json(std::string_view bytes, const std::string& file) {
+    const auto word = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+        return value;
+    };
+    constexpr std::size_t kHeader = 20;
+    if (bytes.size() < kHeader) throw malformed(file, 0, "is a binary glTF cut short in its header");
+    if (bytes.substr(16, 4) != "JSON")
+        throw malformed(file, 0, "is a binary glTF whose first chunk isn't JSON");
+    if (word(12) > bytes.size() - kHeader)
+        throw malformed(file, 0,
+                        "is a binary glTF that claims " + std::to_string(word(12)) +
+                            " bytes of JSON, but has " + std::to_string(bytes.size() - kHeader) + " left");
+    return bytes.substr(kHeader, word(12));
+}
+
+LightFile parse_json_lights(std::string_view text, const std::string& file, ThreeLights three) {
+    const Json json = json_of(text, file);
+    if (!json.is_object())
+        throw malformed(file, 0,
+                        "is JSON, but no object; allowed: glTF, a three.js scene, or {\"lights\": […]}");
+    if (json.contains("asset")) return parse_gltf_lights(json, file);
+    if (json.contains("metadata") || json.contains("object")) return parse_three_lights(json, file, three);
+    if (json.contains("lights")) return parse_plain_lights(json, file);
+    throw malformed(file, 0,
+                    "is JSON without \"asset\" (glTF), \"metadata\" (three.js) or \"lights\" (plain lights)");
+}
+
+bool has_extension(const std::string& file, std::string_view extension) {
+    std::string end = file.substr(file.size() - std::min(file.size(), extension.size()));
+    std::transform(end.begin(), end.end(), end.begin(),
+                   [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
+    return end == extension;
+}
+
+LightFile parse_text_lights(std::string_view text, const std::string& file, ThreeLights three) {
+    const std::size_t start = text.find_first_not_of(" \t\r\n\v\f");
+    if (start == text.npos) throw malformed(file, 0, "holds nothing but blanks");
+    const std::string_view head = text.substr(start);
+    if (head.starts_with('<')) return parse_collada_lights(text, file);
+    if (head.starts_with("AC3D")) return parse_ac3d_lights(text, file);
+    if (has_extension(file, ".ogex")) return parse_opengex_lights(text, file);
+    const bool is_map =
+        has_extension(file, ".map") || has_extension(file, ".ent") || has_extension(file, ".vmf");
+    if (has_extension(file, ".csv")) return parse_csv_lights(text, file);
+    // A map's first brace opens an entity's "key" "value"; JSON has a colon there.
+    if (head.starts_with('{') && !is_map) {
+        const std::size_t key = head.find('"'), end = key == head.npos ? head.npos : head.find('"', key + 1);
+        const std::size_t next = end == head.npos ? head.npos : head.find_first_not_of(" \t\r\n", end + 1);
+        if (next == head.npos || head[next] != '"') return parse_json_lights(head, file, three);
+    }
+    if (head.starts_with('[')) return parse_json_lights(head, file, three);
+    if (is_map || head.find("\"classname\"") != head.npos) return parse_entity_lights(text, file);
+    if (head.find("LightObject") != head.npos || head.starts_with("Metric"))
+        return parse_opengex_lights(text, file);
+    const std::string_view line = head.substr(0, head.find_first_of("\r\n"));
+    if (line.find(',') != line.npos) return parse_csv_lights(text, file);
+    throw malformed(
+        file, 1,
+        "begins with " + parse::quoted(line) +
+            ", as no format known does; allowed: COLLADA, glTF, three.js and plain JSON, Quake and "
+            "Source maps, OpenGEX, AC3D, CSV");
+}
+
+}  // namespace
+
+LightFile parse_lights(std::span<const std::byte> bytes, std::string_view file, ThreeLights three) {
+    const std::string name(file);
+    const std::string_view raw(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (raw.starts_with("glTF")) return parse_gltf_lights(json_of(glb_json(raw, name), name), name);
+    if (raw.starts_with("Kaydara"))
+        throw malformed(file, 0, "is FBX, which isn't read; export glTF or COLLADA");
+    std::vector<Diagnostic> diagnostics;
+    const std::string text = decode_text(bytes, file, diagnostics);
+    LightFile lights = parse_text_lights(text, name, three);
+    constexpr double kLeast_m = 1e-6, kMost_m = 1e6;
+    if (!(lights.unit_m >= kLeast_m && lights.unit_m <= kMost_m))
+        throw malformed(file, 0,
+                        "states a length of " + number_text(lights.unit_m) +
+                            " m as its unit; allowed: from 0.000001 to 1000000");
+    lights.diagnostics.insert(lights.diagnostics.begin(), diagnostics.begin(), diagnostics.end());
+    return lights;
+}
+
+}  // namespace pbrbake::parse

@@ -1,0 +1,202 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bakers/job/json_text.hpp"
+#include "bakers/job/schema.hpp"
+#include "bakers/light/convert.hpp"
+#include "bakers/parse/text.hpp"
+#include "tests/bakers/light/fixtures.hpp"
+
+namespace pbrbake::light::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Illuminance of a written light on a surface that faces it, by the formulas of the README alone.
+double written_lx(const Json& light, double d) {
+    const double cd = light["intensity_cd"], r = light["source_radius_m"];
+    double window = 1;
+    if (!light["attenuation_radius_m"].is_null()) {
+        const double share = d / light["attenuation_radius_m"].get<double>();
+        window = std::max(1 - std::pow(share, 4), 0.);
+        if (light["window"] == "quartic_squared") window *= window;
+    }
+    return cd / (d * d + r * r) * window;
+}
+
+TEST(Light, ConstantAndQuadraticIsADiskToOnePartInAMillion) {
+    for (const auto& [c, q, unit] : {std::tuple{1., .04, 1.}, {.25, 300., 1.}, {2., .00111109, .01}}) {
+        LightParams params = defaults();
+        params.unit_m = unit;
+        const Baked baked = bake_one("\"intensity\": 7, \"attenuation\": [" + std::to_string(c) + ", 0, " +
+                                         parse::number_text(q) + "]",
+                                     params);
+        const Json& light = baked.light();
+        EXPECT_NEAR(light["intensity_cd"].get<double>() / (7 / q * unit * unit), 1, 1e-6);
+        EXPECT_NEAR(light["source_radius_m"].get<double>() / (std::sqrt(c / q) * unit), 1, 1e-6);
+        EXPECT_TRUE(light["falloff"]["exact"].get<bool>());
+        for (const double share : {.1, 1., 10.}) {
+            const double d = share * std::sqrt(c / q);
+            EXPECT_NEAR(written_lx(light, d * unit) * (c + q * d * d) / 7, 1, 1e-6);
+        }
+        EXPECT_LE(baked.figure("stops_max"), 1e-6);
+    }
+}
+
+TEST(Light, QuakesRampIsWithinATenthOfAStop) {
+    const Baked baked = bake_one(R"("intensity": 300, "falloff": {"kind": "linear", "range": 300})");
+    const Json& light = baked.light();
+    double squares = 0, sum_as_point = 0;
+    constexpr int kCount = 1000;
+    for (int i = 0; i < kCount; ++i) {
+        const double d = 300 * (.05 + .85 * (i + .5) / kCount);
+        squares += std::pow(std::log2(written_lx(light, d) / (300 - d)), 2);
+        sum_as_point += 1;
+    }
+    EXPECT_LE(std::sqrt(squares / kCount), .15);
+    EXPECT_LE(baked.certificate.headline->value, .15);
+    EXPECT_GT(light["source_radius_m"].get<double>(), 0);
+    EXPECT_GT(light["falloff"]["stops_as_point"]["rms"].get<double>(), 1);
+    EXPECT_GT(baked.figure("gltf_stops_rms"), 1);
+}
+
+TEST(Light, CurveIsLawAndFitOverTheSpan) {
+    const Baked baked =
+        bake_one(R"("intensity": 2, "falloff": {"constant": 1, "linear": 0.7, "quadratic": 1.8})");
+    const Json& falloff = baked.light()["falloff"];
+    for (const Json& row : falloff["curve"]["rows"]) {
+        const double d = row[0];
+        EXPECT_NEAR(row[1].get<double>() * (1 + .7 * d + 1.8 * d * d) / 2, 1, 1e-8);
+        EXPECT_NEAR(row[2].get<double>() / written_lx(baked.light(), d), 1, 1e-7);
+        EXPECT_NEAR(row[3].get<double>(), std::log2(row[2].get<double>() / row[1].get<double>()), 1e-7);
+    }
+}
+
+TEST(Light, AnchorIsTheExposureUnderWhichOneIsWhite) {
+    // Pixel value of white: exposure times E / pi, with exposure 1 / (1.2 2^EV).
+    for (const double ev : {0., 8., 15.})
+        EXPECT_NEAR(reference_illuminance_lx(ev) / kPi / (1.2 * std::exp2(ev)), 1, 1e-13);
+    EXPECT_NEAR(ev100_of_reference(reference_illuminance_lx(11.5)), 11.5, 1e-12);
+    LightParams params = defaults();
+    params.reference_illuminance_lx = 0;
+    params.ev100 = 15;
+    const Baked sun = bake_one(R"("type": "directional")", params);
+    EXPECT_NEAR(sun.light()["illuminance_lx"].get<double>(), 1.2 * kPi * 32768, .1);
+    params.unit_cd = 40;
+    params.unit_m = .5;
+    const Baked lamp = bake_one(R"("falloff": "inverse_square")", params);
+    EXPECT_NEAR(lamp.light()["intensity_cd"].get<double>(), 40, 1e-6);
+}
+
+TEST(Light, LumensAreOverWhatTheLightFills) {
+    const auto candela = [](const std::string& fields) {
+        return bake_one("\"intensity\": 800, " + fields).light()["intensity_cd"].get<double>();
+    };
+    EXPECT_NEAR(candela(R"("unit": "lm")"), 63.662, 1e-3);
+    EXPECT_NEAR(candela(R"("type": "spot", "unit": "lm_over_pi")"), 254.648, 1e-3);
+    EXPECT_NEAR(candela(R"("type": "spot", "unit": "lm", "outer_deg": 22.5)"), 1672.7, .1);
+    EXPECT_NEAR(candela(R"("type": "spot", "unit": "lm_over_4pi")"), 63.662, 1e-3);
+}
+
+TEST(Light, WattsAreBlenders) {
+    const Baked point = bake_one(R"("unit": "W", "intensity": 100)");
+    EXPECT_NEAR(point.light()["intensity_cd"].get<double>(), 100 * 683 / (4 * kPi), 1e-3);
+    const Baked sun = bake_one(R"("type": "sun", "unit": "W/m2", "intensity": 3)");
+    EXPECT_NEAR(sun.light()["illuminance_lx"].get<double>(), 3 * 683, 1e-6);
+    const Baked area = bake_one(R"("type": "area", "unit": "W", "intensity": 10, "width": 2, "height": 0.5)");
+    EXPECT_NEAR(area.light()["luminance_cd_m2"].get<double>(), 10 * 683 / kPi, 1e-3);
+}
+
+TEST(Light, AreaSourcesKeepTheirSizeAndLuminance) {
+    const Baked baked =
+        bake_one(R"("type": "rectangle", "unit": "nit", "intensity": 500, "width": 2, "height": 3)");
+    EXPECT_EQ(baked.light()["shape"], "rectangle");
+    EXPECT_NEAR(baked.light()["intensity_cd"].get<double>(), 3000, 1e-6);
+    EXPECT_NEAR(baked.light()["flux_lm"].get<double>(), 3000 * kPi, 1e-4);
+    EXPECT_NEAR(baked.light()["luminance_cd_m2"].get<double>(), 500, 1e-6);
+    const Baked sphere = bake_one(R"("type": "sphere", "unit": "cd", "intensity": 50, "radius": 0.1)");
+    EXPECT_EQ(sphere.light()["shape"], "sphere");
+    EXPECT_NEAR(sphere.light()["luminance_cd_m2"].get<double>(), 50 / (kPi * .01), 1e-4);
+}
+
+TEST(Light, ColourIsTemperatureTintAndLuminance) {
+    const Baked white = bake_one(R"("unit": "cd", "intensity": 10)");
+    EXPECT_NEAR(white.light()["colour"]["temperature_k"].get<double>(), 6504, 1);
+    // Its colour's luminance goes into the intensity, and comes back in glTF.
+    const Baked green = bake_one(R"("unit": "cd", "intensity": 10, "colour": [0, 0.5, 0])");
+    const double y = 10 * .5 * .7152;
+    EXPECT_NEAR(green.light()["intensity_cd"].get<double>(), y, 1e-3);
+    EXPECT_FALSE(green.light()["colour"]["temperature_is_meaningful"].get<bool>());
+    const Json& written = green.gltf()["extensions"]["KHR_lights_punctual"]["lights"][0];
+    EXPECT_NEAR(written["color"][1].get<double>(), 1, 1e-9);
+    EXPECT_NEAR(written["intensity"].get<double>(), 5, 1e-6);
+    // sRGB 188 is half of linear light.
+    const Baked grey = bake_one(R"("unit": "cd", "intensity": 10, "colour": "#bcbcbc")");
+    EXPECT_NEAR(grey.light()["intensity_cd"].get<double>(), 5.03, .01);
+}
+
+TEST(Light, GltfComesBackAsItWent) {
+    const std::string source =
+        R"({"asset": {"version": "2.0"}, "extensions": {"KHR_lights_punctual": {"lights": [
+        {"type": "spot", "intensity": 40, "range": 12, "color": [1, 0.5, 0.25], "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.6}},
+        {"type": "directional", "intensity": 1000}, {"type": "point", "intensity": 3}]}},
+        "nodes": [{"translation": [1, 2, 3], "rotation": [0.7071067811865476, 0, 0, 0.7071067811865476], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                  {"children": [2], "scale": [2, 2, 2]}, {"translation": [0, 1, 0], "extensions": {"KHR_lights_punctual": {"light": 2}}},
+                  {"extensions": {"KHR_lights_punctual": {"light": 1}}}],
+        "scenes": [{"nodes": [0, 1, 3]}]})";
+    const Baked once = bake_text(source, defaults(), "scene.gltf");
+    EXPECT_LE(once.figure("gltf_stops_rms"), 1e-8);
+    const Json& lights = once.gltf()["extensions"]["KHR_lights_punctual"]["lights"];
+    ASSERT_EQ(lights.size(), 3u);
+    EXPECT_NEAR(lights[0]["intensity"].get<double>(), 40, 1e-6);
+    EXPECT_NEAR(lights[0]["range"].get<double>(), 12, 1e-6);
+    EXPECT_NEAR(lights[0]["spot"]["innerConeAngle"].get<double>(), .2, 1e-6);
+    EXPECT_NEAR(lights[0]["color"][2].get<double>(), .25, 1e-8);
+    EXPECT_EQ(once.gltf()["nodes"][1]["translation"], Json({0.0, 2.0, 0.0}));
+    // Through its own product again: the same numbers.
+    const Baked twice = bake_text(job::to_text(once.gltf()), defaults(), "scene.gltf");
+    EXPECT_EQ(twice.gltf()["extensions"], once.gltf()["extensions"]);
+    EXPECT_NEAR(twice.light(0)["direction"][1].get<double>(), 1, 1e-8);
+}
+
+TEST(Light, NodesLookAlongTheirLight) {
+    for (const char* direction : {"[0, -1, 0]", "[0, 0, 1]", "[0, 0, -1]", "[1, 2, -3]", "[1e-9, 0, 1]"}) {
+        const Baked baked = bake_one(std::string(R"("type": "directional", "direction": )") + direction);
+        const Json& q = baked.gltf()["nodes"][0]["rotation"];
+        const double x = q[0], y = q[1], z = q[2], w = q[3];
+        const Json& to = baked.light()["direction"];
+        EXPECT_NEAR(-2 * (x * z + w * y), to[0].get<double>(), 1e-7)
+            << direction;  // the third column, turned round
+        EXPECT_NEAR(-2 * (y * z - w * x), to[1].get<double>(), 1e-7);
+        EXPECT_NEAR(-(1 - 2 * (x * x + y * y)), to[2].get<double>(), 1e-7);
+    }
+}
+
+TEST(Light, ShapeCanBeAskedFor) {
+    LightParams params = defaults();
+    const std::string ramp = R"("falloff": {"kind": "linear", "range": 10})";
+    params.shape = Shape::point;
+    EXPECT_EQ(bake_one(ramp, params).light()["source_radius_m"], 0.0);
+    params.shape = Shape::rectangle;
+    EXPECT_EQ(bake_one(ramp, params).light()["shape"], "rectangle");
+    EXPECT_LE(bake_one(ramp, params).certificate.headline->value, .15);
+}
+
+TEST(Light, DocumentsAreValid) {
+    const std::string file = std::string(PBRBAKE_SOURCE_DIR) + "/schemas/lights.schema.json";
+    const job::Schema schema(job::parse_json(job::read_text(file), file));
+    for (const char* fields :
+         {R"("falloff": {"kind": "linear", "range": 10})", R"("falloff": "constant")",
+          R"("type": "spot", "unit": "lm", "outer_deg": 30, "spot_exponent": 8)",
+          R"("type": "directional", "unit": "lx")",
+          R"("type": "rectangle", "unit": "nit", "width": 1, "height": 2)", R"("intensity": 0)",
+          R"("intensity": -3)", R"("type": "ambient")", R"("colour": [0, 0, 0])"})
+        for (const Mistake& mistake : schema.mistakes(bake_one(fields).json()))
+            ADD_FAILURE() << fields << mistake.pointer << ": " << mistake.message;
+}
+
+}  // namespace
+}  // namespace pbrbake::light::test

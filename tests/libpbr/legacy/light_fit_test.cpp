@@ -1,0 +1,174 @@
+#include "pbr/legacy/light_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "pbr/light/disk_light.hpp"
+#include "pbr/light/rectangle_light.hpp"
+
+namespace pbr {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree = kPi / 180;
+
+Falloff quake(double range) {
+    Falloff law;
+    law.window = FalloffWindow::ramp;
+    law.range = range;
+    return law;
+}
+
+/// Root mean square of stops by Simpson's rule of the plain formulas: shares no code with the fit.
+double simpson_stops(const std::function<double(double)>& a, const std::function<double(double)>& b,
+                     double near, double far) {
+    constexpr int kParts = 2000;
+    const auto f = [&](double d) { return std::pow(std::log2(a(d) / b(d)), 2); };
+    double sum = f(near) + f(far);
+    for (int i = 1; i < kParts; ++i) sum += f(near + (far - near) * i / kParts) * (i % 2 ? 4 : 2);
+    return std::sqrt(sum / (3 * kParts));
+}
+
+double karis(double x) { return x < 1 ? std::pow(1 - std::pow(x, 4), 2) : 0; }
+
+TEST(LightFit, ConstantAndQuadraticAreADiskOnItsAxis) {
+    for (const double c : {.25, 1., 9.})
+        for (const double q : {.00111109, .04, 1., 300.}) {
+            const Falloff law{c, 0, q};
+            const LightFit fit = fit_light(law, 5, EmitterShape::disk, LightWindow::quartic_squared,
+                                           distances_that_matter(law, 5, .01));
+            EXPECT_TRUE(fit.is_exact);
+            EXPECT_NEAR(fit.light.intensity / (5 / q), 1, 1e-12);
+            EXPECT_NEAR(fit.light.radius / std::sqrt(c / q), 1, 1e-12);
+            EXPECT_LE(fit.error.max, 1e-6);
+            // The witness is libpbr's disk light, in luminance and projected solid angle.
+            const double r = fit.light.radius, luminance = fit.light.intensity / (kPi * r * r);
+            for (const double share : {.01, .3, 1., 4., 60.}) {
+                const double d = share * r;
+                const DiskLight<double> disk{{0, 0, d}, {0, 0, -1}, r};
+                EXPECT_NEAR(luminance * projected_solid_angle(disk, Vec3<double>(0), Vec3<double>(0, 0, 1)) *
+                                (c + q * d * d) / 5,
+                            1, 1e-6);
+                EXPECT_NEAR(illuminance_at(fit.light, d) * (c + q * d * d) / 5, 1, 1e-12);
+            }
+        }
+}
+
+TEST(LightFit, SquareIsTheRectangleLightOnItsAxis) {
+    const PhysicalLight light{EmitterShape::rectangle, LightWindow::quartic_squared, 12, .5};
+    for (const double d : {.01, .2, 1., 5., 100.}) {
+        const RectangleLight<double> square{{0, 0, d}, {0, .5, 0}, {.5, 0, 0}};
+        const double expected =
+            12. / 1. * projected_solid_angle(square, Vec3<double>(0), Vec3<double>(0, 0, 1));
+        EXPECT_NEAR(illuminance_at(light, d) / expected, 1, 1e-9) << d;
+    }
+}
+
+TEST(LightFit, QuakesRampIsNearWithASourceRadiusAndFarWithout) {
+    const Falloff law = quake(300);
+    const DistanceSpan span = distances_that_matter(law, 300, 1e-9);
+    EXPECT_NEAR(span.near, 15, 1e-6);
+    EXPECT_NEAR(span.far, 270, 1e-6);
+    const LightFit point = fit_light(law, 300, EmitterShape::point, LightWindow::quartic_squared, span);
+    const LightFit disk = fit_light(law, 300, EmitterShape::disk, LightWindow::quartic_squared, span);
+    EXPECT_GT(point.error.rms, 1);
+    EXPECT_LE(disk.error.rms, .15);
+    EXPECT_GE(disk.light.attenuation_radius, 270);
+    const double r = disk.light.radius, end = disk.light.attenuation_radius;
+    const double simpson =
+        simpson_stops([&](double d) { return disk.light.intensity / (d * d + r * r) * karis(d / end); },
+                      [](double d) { return 300 * (1 - d / 300); }, span.near, span.far);
+    EXPECT_NEAR(disk.error.rms, simpson, 1e-3);
+    RecordProperty("point_stops", std::to_string(point.error.rms));
+    RecordProperty("disk_stops", std::to_string(disk.error.rms));
+}
+
+TEST(LightFit, IsTheLeastOfABruteSearch) {
+    const Falloff law = quake(1);
+    const DistanceSpan span{.05, .9};
+    const LightFit fit = fit_light(law, 1, EmitterShape::disk, LightWindow::quartic_squared, span);
+    double least = kInfinity;
+    for (int i = 1; i < 60; ++i)
+        for (int j = 0; j < 60; ++j) {
+            const double r = .02 * i, end = .9 / (.4 + .01 * j);
+            double sum = 0, squares = 0;
+            for (int k = 0; k < 64; ++k) {
+                const double d = .05 + .85 * (k + .5) / 64;
+                const double stops = std::log2(karis(d / end) / (d * d + r * r) / (1 - d));
+                sum += stops / 64, squares += stops * stops / 64;
+            }
+            least = std::min(least, std::sqrt(squares - sum * sum));
+        }
+    EXPECT_LE(fit.error.rms, least + 1e-4);
+}
+
+TEST(LightFit, IsTheSameInAnyUnitOfLengthAndIntensity) {
+    const LightFit one =
+        fit_light(quake(300), 300, EmitterShape::disk, LightWindow::quartic_squared, {15, 270});
+    const LightFit other =
+        fit_light(quake(3), 1, EmitterShape::disk, LightWindow::quartic_squared, {.15, 2.7});
+    EXPECT_NEAR(one.light.radius / other.light.radius, 100, 1e-3);
+    EXPECT_NEAR(one.light.intensity / other.light.intensity, 300 * 1e4, 300);
+    EXPECT_NEAR(one.error.rms, other.error.rms, 1e-6);
+}
+
+TEST(LightFit, WindowOfItsOwnFormIsExact) {
+    Falloff law{0, 0, 1};
+    law.window = FalloffWindow::quartic;
+    law.range = 10;
+    const LightFit gltf = fit_light(law, 20, EmitterShape::point, LightWindow::quartic, {.5, 9});
+    EXPECT_TRUE(gltf.is_exact);
+    EXPECT_EQ(gltf.light.attenuation_radius, 10);
+    EXPECT_LE(gltf.error.max, 1e-12);
+    const LightFit other = fit_light(law, 20, EmitterShape::point, LightWindow::quartic_squared, {.5, 9});
+    EXPECT_FALSE(other.is_exact);
+    EXPECT_LE(other.error.rms, .2);
+}
+
+TEST(LightFit, DistancesThatMatterKnowNoConstantAndNoDarkLight) {
+    EXPECT_EQ(distances_that_matter(Falloff{1, 0, 0}, 1, .01).far, 0);
+    EXPECT_EQ(distances_that_matter(Falloff{0, 0, 1}, 0, .01).far, 0);
+    Falloff nowhere{0, 0, 1};
+    nowhere.window = FalloffWindow::cut;
+    nowhere.range = 0;
+    EXPECT_EQ(distances_that_matter(nowhere, 1, .01).far, 0);
+    EXPECT_NEAR(distances_that_matter(Falloff{0, 0, 1}, 1e6, .01).far, 9e3, 1e-6);
+}
+
+TEST(LightFit, DarknessCountsAsManyStops) {
+    PhysicalLight light{EmitterShape::point, LightWindow::quartic, 1, 0, 5};
+    const StopsError error = stops_between(light, Falloff{0, 0, 1}, 1, {1, 9}, 64);
+    EXPECT_EQ(error.max, kDarkStops);
+    EXPECT_TRUE(std::isfinite(error.rms));
+}
+
+TEST(SpotFit, GltfsRampAndHardConesAreExact) {
+    const SpotFit ramp = fit_spot({SpotLaw::cosine_ramp, 20 * kDegree, 40 * kDegree, 2});
+    EXPECT_TRUE(ramp.is_exact);
+    EXPECT_EQ(ramp.inner_rad, 20 * kDegree);
+    const SpotFit hard = fit_spot({SpotLaw::hard, 0, 30 * kDegree, 1});
+    EXPECT_TRUE(hard.is_exact);
+    EXPECT_EQ(hard.inner_rad, hard.outer_rad);
+    EXPECT_TRUE(fit_spot({SpotLaw::hard, 0, 0, 1}).is_exact);
+}
+
+TEST(SpotFit, CosinePowersKeepShapeAndFlux) {
+    // glTF's square ramp can't have a broad lobe's soft edge at 90 degrees: below exponent 2 it stays apart.
+    for (const auto& [exponent, largest] :
+         {std::pair{.15, .17}, {1., .12}, {2., 1e-4}, {4., .05}, {32., .05}, {128., .05}}) {
+        const SpotFit fit = fit_spot({SpotLaw::cosine_power, 0, kPi / 2, exponent});
+        EXPECT_LE(fit.inner_rad, fit.outer_rad);
+        EXPECT_LE(fit.outer_rad, kPi / 2 + 1e-12);
+        EXPECT_LE(fit.rms_share, largest) << exponent;
+        EXPECT_LE(std::abs(fit.flux_stops), .25) << exponent;
+    }
+}
+
+}  // namespace
+}  // namespace pbr
