@@ -46,6 +46,13 @@ glm::dvec3 ball_normal(const View& view, double u, double v) {
     return u * view.right + v * view.up - depth * view.forward;
 }
 
+/// The same, of the nearest point of the disk for (u, v) beyond it.
+glm::dvec3 rim_clamped_normal(const View& view, double u, double v) {
+    constexpr double kRim = 0.9999;
+    const double shrink = std::min(1.0, kRim / std::max(std::hypot(u, v), kRim));
+    return ball_normal(view, u * shrink, v * shrink);
+}
+
 }  // namespace
 
 std::string data_uri(const Picture& picture) {
@@ -131,12 +138,13 @@ View::View(const glm::dvec3& towards) {
     up = glm::cross(right, forward);
 }
 
+glm::dvec3 reflected_at(const View& view, double u, double v) {
+    return glm::reflect(view.forward, rim_clamped_normal(view, u, v));
+}
+
 Picture ball_picture(int size, const View& view, const BallShade& shade) {
-    constexpr double kRim = 0.9999;
     return rendered(size, size, [&](double x, double y) {
-        const double u = 2 * x / size - 1, v = 1 - 2 * y / size;
-        const double shrink = std::min(1.0, kRim / std::max(std::hypot(u, v), kRim));
-        const glm::dvec3 normal = ball_normal(view, u * shrink, v * shrink);
+        const glm::dvec3 normal = rim_clamped_normal(view, 2 * x / size - 1, 1 - 2 * y / size);
         return shade(normal, glm::reflect(view.forward, normal));
     });
 }

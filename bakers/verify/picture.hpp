@@ -73,6 +73,10 @@ struct View {
     glm::dvec3 right, up, forward;
 };
 
+/// The direction that a mirror ball reflects the view into at (u, v) of its disk, v upwards, seen from afar;
+/// of its rim beyond.
+glm::dvec3 reflected_at(const View& view, double u, double v);
+
 /// A mirror ball seen from afar: the colour of each point of the disk from its normal and the direction it
 /// reflects into. `shade` is called with both. Pixels outside the disk get the colour of its nearest point.
 using BallShade = std::function<glm::dvec3(const glm::dvec3& normal, const glm::dvec3& reflected)>;

@@ -19,6 +19,7 @@ TEST(Help, FitsEightyColumns) {
                                                {"dfg", "--help"},
                                                {"probe", "-h"},
                                                {"inspect", "--help"},
+                                               {"compare", "--help"},
                                                {"demo", "--help"}}) {
         const Outcome outcome = run_program(arguments);
         EXPECT_EQ(outcome.code, 0);
@@ -34,7 +35,7 @@ TEST(Help, FitsEightyColumns) {
 
 TEST(Help, ListsCommandsAndFlags) {
     const std::string commands = run_program({"--help"}).out;
-    for (const char* command : {"bake", "dfg", "probe", "inspect", "demo"})
+    for (const char* command : {"bake", "dfg", "probe", "inspect", "compare", "demo"})
         EXPECT_THAT(commands, HasSubstr(command));
     EXPECT_THAT(run_program({"dfg", "--help"}).out, HasSubstr("--roughness-axis perceptual|alpha"));
 }
@@ -72,6 +73,8 @@ TEST(Usage, UnknownWordsExitWithTwoAndASuggestion) {
               "--threads: found \"0\"; allowed: integer 1 to 1024"},
              {{"dfg"}, "-o: missing"},
              {{"probe", "-o", "/nowhere/a.exr"}, "SOURCE: missing"},
+             {{"compare", "/nowhere"}, "B: missing"},
+             {{"compare", "/nowhere", "/nowhere", "--max-ulp", "x"}, "--max-ulp: found \"x\""},
              {{"bake"}, "no job file given"}}) {
         const Outcome outcome = run_program(arguments);
         EXPECT_EQ(outcome.code, 2) << outcome.err;

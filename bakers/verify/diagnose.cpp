@@ -1,0 +1,475 @@
+#include "bakers/verify/diagnose.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+
+#include "bakers/verify/metrics.hpp"
+#include "bakers/verify/page.hpp"
+#include "bakers/verify/picture.hpp"
+#include "pbr/brdf/roughness.hpp"
+#include "pbr/ibl/cubemap.hpp"
+#include "pbr/ibl/ld.hpp"
+
+namespace pbrbake::verify {
+namespace {
+
+/// Side that faces are shrunk to before they are turned: smaller is faster, and mirrors show at any size.
+constexpr int kTurnSide = 16;
+constexpr int kShiftSide = 128;  // of the window in a face's middle that shifts are looked for in
+/// What may be left of a difference for its cause to be named.
+constexpr double kRemainder = 0.3, kRemainderResampled = 0.5;
+
+constexpr std::array<const char*, 6> kFaceNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+
+/// One face of a level in memory.
+struct Face {
+    int width = 0, height = 0, channels = 0;
+    std::vector<float> texels;
+
+    float at(int x, int y, int c) const {
+        return texels[(static_cast<std::size_t>(y) * width + x) * channels + c];
+    }
+    float& at(int x, int y, int c) {
+        return texels[(static_cast<std::size_t>(y) * width + x) * channels + c];
+    }
+    /// Bilinear at continuous texel coordinates, clamped to the picture.
+    float between(double x, double y, int c) const {
+        x = std::clamp(x, 0.0, width - 1.0);
+        y = std::clamp(y, 0.0, height - 1.0);
+        const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+        const int x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);
+        const double tx = x - x0, ty = y - y0;
+        return static_cast<float>((1 - ty) * ((1 - tx) * at(x0, y0, c) + tx * at(x1, y0, c)) +
+                                  ty * ((1 - tx) * at(x0, y1, c) + tx * at(x1, y1, c)));
+    }
+};
+
+Face face_of(const Image& image, int level, int face) {
+    const Level& l = image.levels[static_cast<std::size_t>(level)];
+    const std::size_t size = static_cast<std::size_t>(l.width) * l.height * image.channels.size();
+    const float* begin = image.texel(level, face, 0, 0);
+    return {l.width, l.height, image.channel_count(), {begin, begin + size}};
+}
+
+/// Means of 2 x 2 texels until no side is above `side`; odd sides are left as they are.
+Face shrunk(Face face, int side) {
+    while (std::max(face.width, face.height) > side && face.width % 2 == 0 && face.height % 2 == 0) {
+        Face half{face.width / 2, face.height / 2, face.channels, {}};
+        half.texels.resize(face.texels.size() / 4);
+        for (int y = 0; y < half.height; ++y)
+            for (int x = 0; x < half.width; ++x)
+                for (int c = 0; c < face.channels; ++c)
+                    half.at(x, y, c) =
+                        0.25f * (face.at(2 * x, 2 * y, c) + face.at(2 * x + 1, 2 * y, c) +
+                                 face.at(2 * x, 2 * y + 1, c) + face.at(2 * x + 1, 2 * y + 1, c));
+        face = std::move(half);
+    }
+    return face;
+}
+
+/// The middle of a face, no side above `side`.
+Face window_of(const Face& face, int side) {
+    Face window{std::min(face.width, side), std::min(face.height, side), face.channels, {}};
+    window.texels.resize(static_cast<std::size_t>(window.width) * window.height * window.channels);
+    const int left = (face.width - window.width) / 2, top = (face.height - window.height) / 2;
+    for (int y = 0; y < window.height; ++y)
+        for (int x = 0; x < window.width; ++x)
+            for (int c = 0; c < face.channels; ++c) window.at(x, y, c) = face.at(left + x, top + y, c);
+    return window;
+}
+
+/// Mean over values of |a - b| / max(|a|, |b|, typical): 0 for equal faces, at most 2. One bright texel is
+/// one texel.
+double distance(const Face& a, const Face& b, const std::vector<double>& typical, int margin = 0) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (int y = margin; y < a.height - margin; ++y)
+        for (int x = margin; x < a.width - margin; ++x)
+            for (int c = 0; c < a.channels; ++c) {
+                const double va = a.at(x, y, c), vb = b.at(x, y, c);
+                const double size =
+                    std::max({std::abs(va), std::abs(vb), typical[static_cast<std::size_t>(c)]});
+                ++count;
+                if (std::isfinite(va) && std::isfinite(vb) && size > 0) sum += std::abs(va - vb) / size;
+            }
+    return count ? sum / static_cast<double>(count) : 0;
+}
+
+/// A cause, and how much of the difference it leaves.
+struct Suspect {
+    std::string text;
+    double remainder = 1;
+};
+
+/// One of the eight ways to lay a square onto itself: bit 0 mirrors u, bit 1 mirrors v, bit 2 swaps them
+/// first.
+Face turned(const Face& face, int way) {
+    Face result = face;
+    for (int y = 0; y < face.height; ++y)
+        for (int x = 0; x < face.width; ++x) {
+            int u = (way & 1) ? face.width - 1 - x : x, v = (way & 2) ? face.height - 1 - y : y;
+            if (way & 4) std::swap(u, v);
+            for (int c = 0; c < face.channels; ++c) result.at(x, y, c) = face.at(u, v, c);
+        }
+    return result;
+}
+
+constexpr std::array<const char*, 8> kWays{"as it was",
+                                           "mirrored in u (columns flipped)",
+                                           "flipped in v (rows upside down)",
+                                           "turned by 180°",
+                                           "u and v swapped",
+                                           "turned by 90°",
+                                           "turned by 270°",
+                                           "u and v swapped and turned by 180°"};
+
+class Diagnosis {
+  public:
+    Diagnosis(const Image& a, const ProductFile& product) : a_(a), b_(product.image), product_(product) {
+        for (std::size_t c = 0; c < b_.channels.size(); ++c) typical_.push_back(typical_of(c));
+        double most = 0;
+        for (int level = 0; level < static_cast<int>(b_.levels.size()); ++level) {
+            differs_.push_back(distance_at(level));
+            if (differs_.back() > most) {
+                most = differs_.back();
+                level_ = level;
+            }
+        }
+    }
+
+    std::string text() {
+        if (differs_[static_cast<std::size_t>(level_)] == 0) return "";
+        consider(factor());
+        consider(gamma());
+        consider(b_.faces == 6 ? moved_faces() : turned_picture());
+        consider(shift());
+        consider(b_.faces == 6 ? probe_roughness() : table_roughness());
+        return best_.text;
+    }
+
+  private:
+    void consider(const Suspect& suspect) {
+        if (!suspect.text.empty() && suspect.remainder < best_.remainder) best_ = suspect;
+    }
+
+    double typical_of(std::size_t channel) const {
+        std::vector<float> magnitudes;
+        for (std::size_t i = channel; i < b_.levels.front().texels.size(); i += b_.channels.size())
+            if (std::isfinite(b_.levels.front().texels[i]))
+                magnitudes.push_back(std::abs(b_.levels.front().texels[i]));
+        return quantile(magnitudes, 0.5);
+    }
+
+    double distance_at(int level) const {
+        double sum = 0;
+        for (int face = 0; face < b_.faces; ++face)
+            sum += distance(face_of(a_, level, face), face_of(b_, level, face), typical_);
+        return sum / b_.faces;
+    }
+
+    /// Sum over faces of the distance that `made` (of a face of b) leaves, over the one there is.
+    double remainder(int level, const std::function<Face(const Face&, int)>& made, int margin = 0,
+                     int side = 1 << 20) const {
+        double left = 0, there = 0;
+        for (int face = 0; face < b_.faces; ++face) {
+            const Face a = window_of(face_of(a_, level, face), side),
+                       b = window_of(face_of(b_, level, face), side);
+            if (std::min(a.width, a.height) <= 2 * margin) return 1;
+            there += distance(a, b, typical_, margin);
+            left += distance(a, made(b, face), typical_, margin);
+        }
+        return there > 0 ? left / there : 1;
+    }
+
+    /// a / b over what isn't dark in b, as the median and those near it have it; 1 where there is nothing.
+    double ratio(int level, std::size_t channel) const {
+        const auto &a = a_.levels[static_cast<std::size_t>(level)].texels,
+                   &b = b_.levels[static_cast<std::size_t>(level)].texels;
+        std::vector<float> ratios;
+        for (std::size_t i = channel; i < b.size(); i += b_.channels.size())
+            if (std::isfinite(a[i]) && std::abs(b[i]) > 0.01 * typical_[channel])
+                ratios.push_back(a[i] / b[i]);
+        if (ratios.empty()) return 1;
+        const double median = quantile(ratios, 0.5);
+        double sum = 0;
+        int count = 0;
+        for (const float value : ratios)  // their mean is free of the steps that rounding makes
+            if (std::abs(value - median) <= 0.01 * std::abs(median)) {
+                sum += value;
+                ++count;
+            }
+        return sum / count;
+    }
+
+    Suspect factor() const;
+    Suspect gamma() const;
+    Suspect moved_faces() const;
+    Suspect turned_picture() const;
+    Suspect shift() const;
+    Suspect table_roughness() const;
+    Suspect probe_roughness() const;
+
+    const Image &a_, &b_;
+    const ProductFile& product_;
+    std::vector<double> typical_;  ///< of each channel
+    std::vector<double> differs_;  ///< of each level
+    int level_ = 0;                ///< that differs most
+    Suspect best_;
+};
+
+/// "0.318 times the reference: 1/pi too many", "0.990 times the reference (1.00 % less)".
+std::string factor_text(double factor) {
+    constexpr double kPi = std::numbers::pi, kNear = 2e-3;
+    const std::array<std::pair<double, const char*>, 8> named{{{kPi, "pi; a 1/pi is missing"},
+                                                               {1 / kPi, "1/pi; a 1/pi too many"},
+                                                               {2 * kPi, "2 pi"},
+                                                               {4 * kPi, "4 pi"},
+                                                               {1 / (2 * kPi), "1/(2 pi)"},
+                                                               {1 / (4 * kPi), "1/(4 pi)"},
+                                                               {683, "683 lm/W"},
+                                                               {1 / 683.0, "1/(683 lm/W)"}}};
+    std::string text = "values are " + number(factor) + " times the reference's";
+    for (const auto& [value, name] : named)
+        if (std::abs(factor / value - 1) < kNear) return text + " (" + name + ")";
+    if (std::abs(factor - 1) < 0.5)
+        text += " (" + percent(std::abs(factor - 1)) + (factor < 1 ? " less)" : " more)");
+    return text;
+}
+
+Suspect Diagnosis::factor() const {
+    const std::size_t channels = b_.channels.size();
+    std::vector<double> factors;
+    for (std::size_t c = 0; c < channels; ++c) factors.push_back(ratio(level_, c));
+    const double left = remainder(level_, [&](Face face, int) {
+        for (std::size_t i = 0; i < face.texels.size(); ++i)
+            face.texels[i] = static_cast<float>(face.texels[i] * factors[i % channels]);
+        return face;
+    });
+    if (left > kRemainder) return {};
+    const auto is_one = [](double f) { return std::abs(f - 1) < 1e-4; };
+    std::string which;
+    std::size_t shown = 0;
+    const bool all_equal =
+        std::ranges::all_of(factors, [&](double f) { return std::abs(f / factors.front() - 1) < 1e-3; });
+    if (!all_equal) {
+        while (shown + 1 < channels && is_one(factors[shown])) ++shown;
+        which = "channel " + b_.channels[shown] + ": ";
+    }
+    std::string levels;
+    std::size_t differing = 0;
+    for (std::size_t level = 0; level < differs_.size(); ++level)
+        if (std::abs(ratio(static_cast<int>(level), shown) / factors[shown] - 1) < 2e-3) {
+            levels += (differing++ ? ", " : "") + std::to_string(level);
+        }
+    if (differing < differs_.size())
+        which = (differing == 1 ? "level " : "levels ") + levels + (which.empty() ? ": " : ", " + which);
+    return {which + factor_text(factors[shown]), left};
+}
+
+Suspect Diagnosis::gamma() const {
+    Suspect best;
+    for (const auto& [power, text] :
+         {std::pair{1 / 2.2, "values are display-encoded (a gamma of 2.2)"},
+          std::pair{2.2, "values were decoded twice (a gamma of 2.2)"}, std::pair{2.0, "values are squared"},
+          std::pair{0.5, "values are square roots"}}) {
+        const double left = remainder(level_, [&, power = power](Face face, int) {
+            for (float& value : face.texels)
+                value = static_cast<float>(
+                    std::copysign(std::pow(std::abs(value) / product_.scale, power) * product_.scale, value));
+            return face;
+        });
+        if (left <= kRemainder && left < best.remainder) best = {text, left};
+    }
+    return best;
+}
+
+Suspect Diagnosis::turned_picture() const {
+    Suspect best;
+    const bool is_square = b_.levels[static_cast<std::size_t>(level_)].width ==
+                           b_.levels[static_cast<std::size_t>(level_)].height;
+    for (int way = 1; way < (is_square ? 8 : 4); ++way) {
+        const double left = remainder(level_, [way](const Face& face, int) { return turned(face, way); });
+        if (left <= kRemainder && left < best.remainder)
+            best = {std::string("the picture is ") + kWays[static_cast<std::size_t>(way)], left};
+    }
+    return best;
+}
+
+Suspect Diagnosis::moved_faces() const {
+    struct Place {
+        int source = 0, way = 0;
+        double distance = 0;
+    };
+    std::vector<Face> of_b;
+    for (int face = 0; face < 6; ++face) of_b.push_back(shrunk(face_of(b_, level_, face), kTurnSide));
+    std::array<Place, 6> places;
+    double left = 0, there = 0;
+    for (int face = 0; face < 6; ++face) {
+        const Face a = shrunk(face_of(a_, level_, face), kTurnSide);
+        Place& best = places[static_cast<std::size_t>(face)];
+        const double own = distance(a, of_b[static_cast<std::size_t>(face)], typical_);
+        best = {face, 0, own};
+        for (int source = 0; source < 6; ++source)
+            for (int way = 0; way < 8; ++way) {
+                const double d = distance(a, turned(of_b[static_cast<std::size_t>(source)], way), typical_);
+                // Another place must explain the face, not just suit it better by chance.
+                if (d < best.distance && d < kRemainder * own) best = {source, way, d};
+            }
+        there += own;
+        left += best.distance;
+    }
+    if (there == 0 || left > kRemainder * there) return {};
+    std::vector<int> moved;
+    for (int face = 0; face < 6; ++face)
+        if (places[static_cast<std::size_t>(face)].source != face ||
+            places[static_cast<std::size_t>(face)].way != 0)
+            moved.push_back(face);
+    if (moved.empty()) return {};
+    const auto name = [](int face) { return std::string(kFaceNames[static_cast<std::size_t>(face)]); };
+    const auto place = [&](int face) { return places[static_cast<std::size_t>(face)]; };
+    std::string text;
+    const bool all_stay = std::ranges::all_of(moved, [&](int face) { return place(face).source == face; });
+    const bool one_way =
+        std::ranges::all_of(moved, [&](int face) { return place(face).way == place(moved[0]).way; });
+    if (moved.size() == 2 && place(moved[0]).source == moved[1] && place(moved[1]).source == moved[0] &&
+        one_way) {
+        text = "faces " + name(moved[0]) + " and " + name(moved[1]) + " are swapped";
+        if (place(moved[0]).way != 0)
+            text += std::string(", each ") + kWays[static_cast<std::size_t>(place(moved[0]).way)];
+    } else if (all_stay && one_way) {
+        text = moved.size() == 6 ? "every face" : moved.size() == 1 ? "face" : "faces";
+        if (moved.size() < 6)
+            for (std::size_t i = 0; i < moved.size(); ++i) text += (i ? ", " : " ") + name(moved[i]);
+        text += (moved.size() == 1 || moved.size() == 6 ? " is " : " are ") +
+                std::string(kWays[static_cast<std::size_t>(place(moved[0]).way)]);
+    } else {
+        text = "faces are moved: ";
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            text += (i ? ", " : "") + name(moved[i]) + " holds " + name(place(moved[i]).source);
+            if (place(moved[i]).way != 0)
+                text += std::string(" ") + kWays[static_cast<std::size_t>(place(moved[i]).way)];
+        }
+    }
+    return {text, left / there};
+}
+
+Suspect Diagnosis::shift() const {
+    Suspect best;
+    for (int dy = -2; dy <= 2; ++dy)
+        for (int dx = -2; dx <= 2; ++dx) {
+            if (dx == 0 && dy == 0) continue;
+            const double left = remainder(
+                level_,
+                [&](const Face& face, int) {
+                    Face moved = face;
+                    for (int y = 0; y < face.height; ++y)
+                        for (int x = 0; x < face.width; ++x)
+                            for (int c = 0; c < face.channels; ++c)
+                                moved.at(x, y, c) = face.between(x + 0.5 * dx, y + 0.5 * dy, c);
+                    return moved;
+                },
+                1, kShiftSide);
+            if (left > kRemainderResampled || left >= best.remainder) continue;
+            const auto along = [](int halves, const char* axis) {
+                if (halves == 0) return std::string();
+                return std::string(halves < 0 ? "+" : "-") + (std::abs(halves) == 1 ? "1/2" : "1") + " in " +
+                       axis;
+            };
+            const std::string u = along(dx, "u"), v = along(dy, "v");
+            best = {"texels are shifted by " + u + (u.empty() || v.empty() ? "" : " and ") + v +
+                        (std::max(std::abs(dx), std::abs(dy)) == 1 ? " (half a texel)" : ""),
+                    left};
+        }
+    for (const bool to_centres : {true, false}) {
+        const double left = remainder(level_, [&](const Face& face, int) {
+            Face aligned = face;
+            const auto from = [&](int i, int n) {
+                return to_centres ? (i + 0.5) / n * (n - 1)
+                                  : static_cast<double>(i) / std::max(1, n - 1) * n - 0.5;
+            };
+            for (int y = 0; y < face.height; ++y)
+                for (int x = 0; x < face.width; ++x)
+                    for (int c = 0; c < face.channels; ++c)
+                        aligned.at(x, y, c) = face.between(from(x, face.width), from(y, face.height), c);
+            return aligned;
+        });
+        if (left <= kRemainderResampled && left < best.remainder)
+            best = {to_centres ? "texels are aligned to centres where the reference's are to ends (off by "
+                                 "half a texel at the ends)"
+                               : "texels are aligned to ends where the reference's are to centres (off by "
+                                 "half a texel at the ends)",
+                    left};
+    }
+    return best;
+}
+
+constexpr std::array<std::pair<bool, const char*>, 2> kRoughnessMistakes{
+    {{true, "roughness is squared once too often"},
+     {false, "roughness is not squared where the reference's is"}}};
+
+Suspect Diagnosis::table_roughness() const {
+    Suspect best;
+    const Json layout = product_.record.is_object() ? product_.record.value("layout", Json()) : Json();
+    const bool flipped = layout.is_object() && layout.value("flip_rows", false);
+    const bool centred = layout.is_object() && layout.value("align", "ends") == "center";
+    for (const auto& [squared, text] : kRoughnessMistakes) {
+        const double left = remainder(level_, [&, is_squared = squared](const Face& face, int) {
+            Face remapped = face;
+            const double n = face.height;
+            for (int row = 0; row < face.height; ++row) {
+                const int y = flipped ? face.height - 1 - row : row;
+                const double p = centred ? (row + 0.5) / n : row / std::max(1.0, n - 1);
+                const double at = is_squared ? p * p : std::sqrt(p);
+                const double source = centred ? at * n - 0.5 : at * (n - 1);
+                for (int x = 0; x < face.width; ++x)
+                    for (int c = 0; c < face.channels; ++c)
+                        remapped.at(x, y, c) = face.between(x, flipped ? n - 1 - source : source, c);
+            }
+            return remapped;
+        });
+        if (left <= kRemainderResampled && left < best.remainder) best = {text, left};
+    }
+    return best;
+}
+
+Suspect Diagnosis::probe_roughness() const {
+    constexpr int kLargestSide = 64;  // of levels looked at
+    const int levels = static_cast<int>(b_.levels.size());
+    const auto is_power_of_two = [](int n) { return (n & (n - 1)) == 0; };
+    if (levels < 3 || b_.channels.size() != 3 || !is_power_of_two(b_.levels.front().width)) return {};
+    const ProbeLookup lookup(b_, 1);
+    double there = 0;
+    std::array<double, 2> left{};
+    for (int level = 1; level + 1 < levels; ++level) {  // the mirror and alpha = 1 are their own squares
+        const int n = b_.levels[static_cast<std::size_t>(level)].width;
+        if (n > kLargestSide) continue;
+        const double p = pbr::perceptual_roughness_from_level(level, levels);
+        for (int face = 0; face < 6; ++face) {
+            const Face a = face_of(a_, level, face);
+            there += distance(a, face_of(b_, level, face), typical_);
+            for (std::size_t i = 0; i < kRoughnessMistakes.size(); ++i) {
+                Face made{n, n, 3, std::vector<float>(a.texels.size())};
+                for (int y = 0; y < n; ++y)
+                    for (int x = 0; x < n; ++x) {
+                        const glm::dvec3 value = lookup(pbr::cubemap_texel_direction({face, x, y}, n),
+                                                        kRoughnessMistakes[i].first ? p * p : std::sqrt(p));
+                        for (int c = 0; c < 3; ++c) made.at(x, y, c) = static_cast<float>(value[c]);
+                    }
+                left[i] += distance(a, made, typical_);
+            }
+        }
+    }
+    const std::size_t best = left[0] <= left[1] ? 0 : 1;
+    if (there == 0 || left[best] > kRemainderResampled * there) return {};
+    return {kRoughnessMistakes[best].second, left[best] / there};
+}
+
+}  // namespace
+
+std::string diagnose(const Image& a, const ProductFile& b) { return Diagnosis(a, b).text(); }
+
+}  // namespace pbrbake::verify
