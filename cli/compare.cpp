@@ -6,6 +6,7 @@
 
 #include "bakers/job/json_text.hpp"
 #include "bakers/run/atomic_file.hpp"
+#include "cli/execute.hpp"
 #include "cli/options.hpp"
 
 namespace pbrbake::cli {
@@ -45,6 +46,7 @@ ExitCode compare_command(const Arguments& arguments) {
                  {{"json", "", "Prints JSON instead of a line a product.", true},
                   {"html", "FILE", "Writes a page that shows the differences."},
                   {"quiet", "", "Prints failures alone.", true}}});
+    options.add({"running", {{"threads", "N", "Worker threads. [default: all processors]"}}});
     options.add(threshold_group());
     const auto given = options.parse(arguments);
     if (!given) return ExitCode::done;
@@ -52,7 +54,7 @@ ExitCode compare_command(const Arguments& arguments) {
     if (!a || !b)
         throw Error(ExitCode::usage, a ? "B" : "A", "missing; usage: pbrbake compare [OPTIONS] A B");
 
-    const verify::Comparison comparison = verify::compare(*a, *b, thresholds_of(*given));
+    const verify::Comparison comparison = verify::compare(*a, *b, thresholds_of(*given), threads_of(*given));
     if (given->is_on("json")) {
         std::printf("%s", job::to_text(verify::comparison_json(comparison)).c_str());
     } else {

@@ -10,6 +10,7 @@
 #include "bakers/verify/diagnose.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/product_file.hpp"
+#include "bakers/workers.hpp"
 
 namespace pbrbake::verify {
 namespace fs = std::filesystem;
@@ -340,11 +341,15 @@ ExitCode code_of(const std::vector<ProductComparison>& products) {
 
 }  // namespace
 
-Comparison compare(const fs::path& a, const fs::path& b, const Thresholds& thresholds) {
+Comparison compare(const fs::path& a, const fs::path& b, const Thresholds& thresholds, int threads) {
+    const std::vector<Pair> pairs = pairs_of(a, b);
     Comparison comparison;
     comparison.thresholds = thresholds;
-    for (const Pair& pair : pairs_of(a, b))
-        comparison.products.push_back(ProductCheck(pair, thresholds).run());
+    comparison.products.resize(pairs.size());
+    Workers(threads).for_each(static_cast<std::int64_t>(pairs.size()), [&](std::int64_t i) {
+        const auto at = static_cast<std::size_t>(i);
+        comparison.products[at] = ProductCheck(pairs[at], thresholds).run();
+    });
     comparison.code = code_of(comparison.products);
     return comparison;
 }

@@ -57,10 +57,10 @@ struct Comparison {
     ExitCode code = ExitCode::done;
 };
 
-/// Compares A, products that are to be judged, with B, the reference. Throws what pairs_of throws; a product
-/// that can't be read is a verdict.
+/// Compares A, products that are to be judged, with B, the reference, one product a thread. Throws what
+/// pairs_of throws; a product that can't be read is a verdict.
 Comparison compare(const std::filesystem::path& a, const std::filesystem::path& b,
-                   const Thresholds& thresholds);
+                   const Thresholds& thresholds, int threads = 1);
 
 /// One line on a product: verdict, name, and what it stands on.
 std::string verdict_line(const ProductComparison& product);

@@ -40,7 +40,8 @@ glm::dvec3 hunt_lab(const glm::dvec3& rgb) {
     constexpr double kDelta = 6.0 / 29;
     glm::dvec3 f = kToXyz * rgb / kWhite;
     for (int c = 0; c < 3; ++c)
-        f[c] = f[c] > kDelta * kDelta * kDelta ? std::cbrt(f[c]) : f[c] / (3 * kDelta * kDelta) + 4.0 / 29;
+        f[c] = f[c] > kDelta * kDelta * kDelta ? std::cbrt(static_cast<float>(f[c]))
+                                               : f[c] / (3 * kDelta * kDelta) + 4.0 / 29;
     const glm::dvec3 lab = opponent(f);
     return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
 }
@@ -50,12 +51,14 @@ double hyab(const glm::dvec3& a, const glm::dvec3& b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
+/// A Gaussian cut at a radius, and before it where it is too small to count in a float.
 Kernel gaussian(double variance, int radius) {
+    const auto value = [&](int i) { return std::exp(-i * i / (2 * variance)); };
+    while (radius > 1 && value(radius) < 1e-8) --radius;
     Kernel kernel;
     double sum = 0;
-    for (int i = -radius; i <= radius; ++i) sum += std::exp(-i * i / (2 * variance));
-    for (int i = -radius; i <= radius; ++i)
-        kernel.push_back(static_cast<float>(std::exp(-i * i / (2 * variance)) / sum));
+    for (int i = -radius; i <= radius; ++i) sum += value(i);
+    for (int i = -radius; i <= radius; ++i) kernel.push_back(static_cast<float>(value(i) / sum));
     return kernel;
 }
 
@@ -187,7 +190,8 @@ Seen seen(const LinearPicture& picture, const Filters& filters) {
 /// Colour difference of a pixel, 0 to 1 (2020, section 4.1.3).
 double colour_difference(const glm::dvec3& a, const glm::dvec3& b) {
     static const double most = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), kColourExponent);
-    const double difference = std::pow(hyab(a, b), kColourExponent), knee = kColourKnee * most;
+    const double difference = std::pow(static_cast<float>(hyab(a, b)), static_cast<float>(kColourExponent)),
+                 knee = kColourKnee * most;
     if (difference < knee) return kColourAtKnee / knee * difference;
     return kColourAtKnee + (difference - knee) / (most - knee) * (1 - kColourAtKnee);
 }
@@ -197,8 +201,10 @@ FlipMap difference(const Seen& a, const Seen& b, Size size) {
     for (std::size_t i = 0; i < size.texels(); ++i) {
         const double feature =
             std::max(std::abs(a.edges[i] - b.edges[i]), std::abs(a.points[i] - b.points[i]));
-        const double features = std::pow(feature / std::numbers::sqrt2, kFeatureExponent);
-        map.error.push_back(std::pow(colour_difference(a.colour[i], b.colour[i]), 1 - features));
+        static_assert(kFeatureExponent == 0.5);
+        const double features = std::sqrt(feature / std::numbers::sqrt2);
+        map.error.push_back(std::pow(static_cast<float>(colour_difference(a.colour[i], b.colour[i])),
+                                     static_cast<float>(1 - features)));
     }
     return map;
 }
