@@ -6,6 +6,7 @@
 
 #include "bakers/job/json_text.hpp"
 #include "bakers/run/atomic_file.hpp"
+#include "bakers/verify/compare_page.hpp"
 #include "cli/execute.hpp"
 #include "cli/options.hpp"
 
@@ -55,6 +56,8 @@ ExitCode compare_command(const Arguments& arguments) {
         throw Error(ExitCode::usage, a ? "B" : "A", "missing; usage: pbrbake compare [OPTIONS] A B");
 
     const verify::Comparison comparison = verify::compare(*a, *b, thresholds_of(*given), threads_of(*given));
+    if (const auto html = given->find("html"))
+        run::write_atomically(*html, verify::comparison_page(comparison));
     if (given->is_on("json")) {
         std::printf("%s", job::to_text(verify::comparison_json(comparison)).c_str());
     } else {

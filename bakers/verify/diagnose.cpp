@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "bakers/verify/face.hpp"
 #include "bakers/verify/metrics.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/picture.hpp"
@@ -25,98 +26,11 @@ constexpr double kRemainder = 0.3, kRemainderResampled = 0.5;
 
 constexpr std::array<const char*, 6> kFaceNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
-/// One face of a level in memory.
-struct Face {
-    int width = 0, height = 0, channels = 0;
-    std::vector<float> texels;
-
-    float at(int x, int y, int c) const {
-        return texels[(static_cast<std::size_t>(y) * width + x) * channels + c];
-    }
-    float& at(int x, int y, int c) {
-        return texels[(static_cast<std::size_t>(y) * width + x) * channels + c];
-    }
-    /// Bilinear at continuous texel coordinates, clamped to the picture.
-    float between(double x, double y, int c) const {
-        x = std::clamp(x, 0.0, width - 1.0);
-        y = std::clamp(y, 0.0, height - 1.0);
-        const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-        const int x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);
-        const double tx = x - x0, ty = y - y0;
-        return static_cast<float>((1 - ty) * ((1 - tx) * at(x0, y0, c) + tx * at(x1, y0, c)) +
-                                  ty * ((1 - tx) * at(x0, y1, c) + tx * at(x1, y1, c)));
-    }
-};
-
-Face face_of(const Image& image, int level, int face) {
-    const Level& l = image.levels[static_cast<std::size_t>(level)];
-    const std::size_t size = static_cast<std::size_t>(l.width) * l.height * image.channels.size();
-    const float* begin = image.texel(level, face, 0, 0);
-    return {l.width, l.height, image.channel_count(), {begin, begin + size}};
-}
-
-/// Means of 2 x 2 texels until no side is above `side`; odd sides are left as they are.
-Face shrunk(Face face, int side) {
-    while (std::max(face.width, face.height) > side && face.width % 2 == 0 && face.height % 2 == 0) {
-        Face half{face.width / 2, face.height / 2, face.channels, {}};
-        half.texels.resize(face.texels.size() / 4);
-        for (int y = 0; y < half.height; ++y)
-            for (int x = 0; x < half.width; ++x)
-                for (int c = 0; c < face.channels; ++c)
-                    half.at(x, y, c) =
-                        0.25f * (face.at(2 * x, 2 * y, c) + face.at(2 * x + 1, 2 * y, c) +
-                                 face.at(2 * x, 2 * y + 1, c) + face.at(2 * x + 1, 2 * y + 1, c));
-        face = std::move(half);
-    }
-    return face;
-}
-
-/// The middle of a face, no side above `side`.
-Face window_of(const Face& face, int side) {
-    Face window{std::min(face.width, side), std::min(face.height, side), face.channels, {}};
-    window.texels.resize(static_cast<std::size_t>(window.width) * window.height * window.channels);
-    const int left = (face.width - window.width) / 2, top = (face.height - window.height) / 2;
-    for (int y = 0; y < window.height; ++y)
-        for (int x = 0; x < window.width; ++x)
-            for (int c = 0; c < face.channels; ++c) window.at(x, y, c) = face.at(left + x, top + y, c);
-    return window;
-}
-
-/// Mean over values of |a - b| / max(|a|, |b|, typical): 0 for equal faces, at most 2. One bright texel is
-/// one texel.
-double distance(const Face& a, const Face& b, const std::vector<double>& typical, int margin = 0) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (int y = margin; y < a.height - margin; ++y)
-        for (int x = margin; x < a.width - margin; ++x)
-            for (int c = 0; c < a.channels; ++c) {
-                const double va = a.at(x, y, c), vb = b.at(x, y, c);
-                const double size =
-                    std::max({std::abs(va), std::abs(vb), typical[static_cast<std::size_t>(c)]});
-                ++count;
-                if (std::isfinite(va) && std::isfinite(vb) && size > 0) sum += std::abs(va - vb) / size;
-            }
-    return count ? sum / static_cast<double>(count) : 0;
-}
-
 /// A cause, and how much of the difference it leaves.
 struct Suspect {
     std::string text;
     double remainder = 1;
 };
-
-/// One of the eight ways to lay a square onto itself: bit 0 mirrors u, bit 1 mirrors v, bit 2 swaps them
-/// first.
-Face turned(const Face& face, int way) {
-    Face result = face;
-    for (int y = 0; y < face.height; ++y)
-        for (int x = 0; x < face.width; ++x) {
-            int u = (way & 1) ? face.width - 1 - x : x, v = (way & 2) ? face.height - 1 - y : y;
-            if (way & 4) std::swap(u, v);
-            for (int c = 0; c < face.channels; ++c) result.at(x, y, c) = face.at(u, v, c);
-        }
-    return result;
-}
 
 constexpr std::array<const char*, 8> kWays{"as it was",
                                            "mirrored in u (columns flipped)",
@@ -202,7 +116,7 @@ class Diagnosis {
                 sum += value;
                 ++count;
             }
-        return sum / count;
+        return count > 0 ? sum / count : median;
     }
 
     Suspect factor() const;
@@ -249,7 +163,7 @@ Suspect Diagnosis::factor() const {
             face.texels[i] = static_cast<float>(face.texels[i] * factors[i % channels]);
         return face;
     });
-    if (left > kRemainder) return {};
+    if (!(left <= kRemainder)) return {};
     const auto is_one = [](double f) { return std::abs(f - 1) < 1e-4; };
     std::string which;
     std::size_t shown = 0;
@@ -299,62 +213,77 @@ Suspect Diagnosis::turned_picture() const {
     return best;
 }
 
+/// Which face of the reference a face holds, turned in which way.
+struct FacePlace {
+    int source = 0, way = 0;
+    bool is_own(int face) const { return source == face && way == 0; }
+};
+
+std::string face_name(int face) { return kFaceNames[static_cast<std::size_t>(face)]; }
+std::string way_text(int way) { return kWays[static_cast<std::size_t>(way)]; }
+
+/// "every face is …", "faces +X, -Z are …", "face -Y is …"
+std::string faces_are(const std::vector<int>& faces, const std::string& what) {
+    if (faces.size() == 6) return "every face is " + what;
+    std::string text = faces.size() == 1 ? "face" : "faces";
+    for (std::size_t i = 0; i < faces.size(); ++i) text.append(i ? ", " : " ").append(face_name(faces[i]));
+    return text.append(faces.size() == 1 ? " is " : " are ").append(what);
+}
+
+/// Where the faces went, in words; "" if all are in place.
+std::string moved_text(const std::array<FacePlace, 6>& places) {
+    std::vector<int> moved, elsewhere;
+    for (int face = 0; face < 6; ++face) {
+        const FacePlace& place = places[static_cast<std::size_t>(face)];
+        if (!place.is_own(face)) moved.push_back(face);
+        if (place.source != face) elsewhere.push_back(face);
+    }
+    if (moved.empty()) return "";
+    const auto place = [&](int face) { return places[static_cast<std::size_t>(face)]; };
+    const int way = place(moved.front()).way;
+    const bool one_way = std::ranges::all_of(moved, [&](int face) { return place(face).way == way; });
+    const bool swapped = elsewhere.size() == 2 && place(elsewhere[0]).source == elsewhere[1] &&
+                         place(elsewhere[1]).source == elsewhere[0];
+    const std::string swap =
+        swapped ? "faces " + face_name(elsewhere[0]) + " and " + face_name(elsewhere[1]) + " are swapped"
+                : "";
+    if (one_way && (swapped || elsewhere.empty())) {
+        if (way == 0) return swap;
+        return faces_are(moved, way_text(way)).append(swapped ? ", and " : "").append(swap);
+    }
+    std::string text = "faces are moved: ";
+    for (const int face : moved) {
+        if (face != moved.front()) text += ", ";
+        text.append(face_name(face)).append(" holds ").append(face_name(place(face).source));
+        if (place(face).way != 0) text.append(" ").append(way_text(place(face).way));
+    }
+    return text;
+}
+
 Suspect Diagnosis::moved_faces() const {
-    struct Place {
-        int source = 0, way = 0;
-        double distance = 0;
-    };
     std::vector<Face> of_b;
     for (int face = 0; face < 6; ++face) of_b.push_back(shrunk(face_of(b_, level_, face), kTurnSide));
-    std::array<Place, 6> places;
+    std::array<FacePlace, 6> places;
     double left = 0, there = 0;
     for (int face = 0; face < 6; ++face) {
         const Face a = shrunk(face_of(a_, level_, face), kTurnSide);
-        Place& best = places[static_cast<std::size_t>(face)];
         const double own = distance(a, of_b[static_cast<std::size_t>(face)], typical_);
-        best = {face, 0, own};
+        FacePlace& best = places[static_cast<std::size_t>(face)];
+        best = {face, 0};
+        double least = own;
         for (int source = 0; source < 6; ++source)
             for (int way = 0; way < 8; ++way) {
                 const double d = distance(a, turned(of_b[static_cast<std::size_t>(source)], way), typical_);
                 // Another place must explain the face, not just suit it better by chance.
-                if (d < best.distance && d < kRemainder * own) best = {source, way, d};
+                if (d >= least || d >= kRemainder * own) continue;
+                least = d;
+                best = {source, way};
             }
         there += own;
-        left += best.distance;
+        left += least;
     }
     if (there == 0 || left > kRemainder * there) return {};
-    std::vector<int> moved;
-    for (int face = 0; face < 6; ++face)
-        if (places[static_cast<std::size_t>(face)].source != face ||
-            places[static_cast<std::size_t>(face)].way != 0)
-            moved.push_back(face);
-    if (moved.empty()) return {};
-    const auto name = [](int face) { return std::string(kFaceNames[static_cast<std::size_t>(face)]); };
-    const auto place = [&](int face) { return places[static_cast<std::size_t>(face)]; };
-    std::string text;
-    const bool all_stay = std::ranges::all_of(moved, [&](int face) { return place(face).source == face; });
-    const bool one_way =
-        std::ranges::all_of(moved, [&](int face) { return place(face).way == place(moved[0]).way; });
-    if (moved.size() == 2 && place(moved[0]).source == moved[1] && place(moved[1]).source == moved[0] &&
-        one_way) {
-        text = "faces " + name(moved[0]) + " and " + name(moved[1]) + " are swapped";
-        if (place(moved[0]).way != 0)
-            text += std::string(", each ") + kWays[static_cast<std::size_t>(place(moved[0]).way)];
-    } else if (all_stay && one_way) {
-        text = moved.size() == 6 ? "every face" : moved.size() == 1 ? "face" : "faces";
-        if (moved.size() < 6)
-            for (std::size_t i = 0; i < moved.size(); ++i) text += (i ? ", " : " ") + name(moved[i]);
-        text += (moved.size() == 1 || moved.size() == 6 ? " is " : " are ") +
-                std::string(kWays[static_cast<std::size_t>(place(moved[0]).way)]);
-    } else {
-        text = "faces are moved: ";
-        for (std::size_t i = 0; i < moved.size(); ++i) {
-            text += (i ? ", " : "") + name(moved[i]) + " holds " + name(place(moved[i]).source);
-            if (place(moved[i]).way != 0)
-                text += std::string(" ") + kWays[static_cast<std::size_t>(place(moved[i]).way)];
-        }
-    }
-    return {text, left / there};
+    return {moved_text(places), left / there};
 }
 
 Suspect Diagnosis::shift() const {

@@ -119,6 +119,14 @@ TEST(PlantedChange, FlippedRowsAreNamed) {
     EXPECT_THAT(verdict(kProbe, flip), HasSubstr("every face is flipped in v"));
 }
 
+TEST(PlantedChange, AMirroredEnvironmentIsNamed) {
+    EXPECT_THAT(verdict(kProbe, copied_from([](int& face, int&, int& x, int n) {
+                            x = n - 1 - x;
+                            if (face < 2) face = 1 - face;
+                        })),
+                HasSubstr("every face is mirrored in u (columns flipped), and faces +X and -X are swapped"));
+}
+
 TEST(PlantedChange, OneTurnedFaceIsNamed) {
     EXPECT_THAT(verdict(kProbe, copied_from([](int& face, int& y, int& x, int n) {
                             if (face != 3) return;
