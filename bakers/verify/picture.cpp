@@ -11,13 +11,11 @@
 #include "bakers/io/io.hpp"
 #include "bakers/verify/page.hpp"
 #include "pbr/brdf/roughness.hpp"
+#include "pbr/camera/exposure.hpp"
 #include "pbr/ibl/ld.hpp"
 
 namespace pbrbake::verify {
 namespace {
-
-constexpr double kSaturationOverEv =
-    1.2;  // lens and sensor of ISO 12232's saturation speed: 78 / (100 * .65)
 
 /// Where the six faces lie in the unfolded cross, in faces: +X -X +Y -Y +Z -Z.
 constexpr std::array<std::array<int, 2>, 6> kCrossPlaces{{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}}};
@@ -59,7 +57,7 @@ std::string data_uri(const Picture& picture) {
     return "data:image/png;base64," + base64(io::encode_png8(picture.width, picture.height, picture.rgb));
 }
 
-double exposure_of_ev100(double ev100) { return 1 / (kSaturationOverEv * std::exp2(ev100)); }
+double exposure_of_ev100(double ev100) { return pbr::exposure_by_saturation(pbr::Ev100<double>(ev100)); }
 
 std::uint8_t srgb_byte(double linear) {
     if (!(linear > 0)) return 0;

@@ -30,8 +30,7 @@ struct Picture {
 /// "data:image/png;base64,…"
 std::string data_uri(const Picture& picture);
 
-/// Multiplies luminance in cd/m^2 so that 1 is what saturates a sensor at this exposure value: 1 / (1.2 *
-/// 2^EV100) (ISO 2720 and 12232 as in Lagarde & de Rousiers 2014, 5.1.2).
+/// pbr::exposure_by_saturation: multiplies luminance in cd/m^2 so that 1 is what saturates a sensor.
 double exposure_of_ev100(double ev100);
 
 /// The display transform: sRGB's curve (IEC 61966-2-1) of a linear value, as a byte; clipped to [0, 1]
