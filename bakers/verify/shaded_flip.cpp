@@ -8,7 +8,7 @@
 namespace pbrbake::verify {
 namespace {
 
-constexpr int kLargestSphere = 96, kSmallestSphere = 32;  // pixels across
+constexpr int kLargestSphere = 96, kSmallestSphere = 24;  // pixels across
 /// FLIP's exposures each cost as much as the first. Beyond these stops there is a sun in the reference, and
 /// what is darker by 2^-kMostStops is black beside it.
 constexpr double kMostStops = 16;
