@@ -26,6 +26,8 @@ ExitCode one_shot_command(const std::string& kind, const Arguments& arguments);
 /// Of `pbrbake ies --convert`.
 ExitCode convert_command(const Arguments& arguments);
 ExitCode inspect_command(const Arguments& arguments);
+ExitCode compare_command(const Arguments& arguments);
+ExitCode study_command(const Arguments& arguments);
 ExitCode demo_command(const Arguments& arguments);
 
 /// One line on stderr for each mistake: "pbrbake: error: …".

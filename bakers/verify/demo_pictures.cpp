@@ -19,23 +19,6 @@ const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);  // of linear Rec. 709
 
 double luminance(const glm::dvec3& rgb) { return glm::dot(rgb, kLuminance); }
 
-/// A table's texel at (NoV, perceptual roughness), bilinear, both ends clamped.
-glm::dvec3 look_up(const BakedImage& table, double NoV, double perceptual_roughness) {
-    const Level& level = table.image.levels[0];
-    // The default layout: sqrt(NoV) and perceptual roughness, the first and last texels at 0 and 1.
-    const double x = std::clamp(std::sqrt(NoV), 0.0, 1.0) * (level.width - 1);
-    const double y = std::clamp(perceptual_roughness, 0.0, 1.0) * (level.height - 1);
-    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const int x1 = std::min(x0 + 1, level.width - 1), y1 = std::min(y0 + 1, level.height - 1);
-    const auto at = [&](int row, int column) {
-        const float* texel = table.image.texel(0, 0, row, column);
-        return glm::dvec3(texel[0], texel[1], texel[2]) / table.scale;
-    };
-    const double tx = x - x0, ty = y - y0;
-    return (1 - ty) * ((1 - tx) * at(y0, x0) + tx * at(y0, x1)) +
-           ty * ((1 - tx) * at(y1, x0) + tx * at(y1, x1));
-}
-
 double mean_luminance(const BakedImage& probe, int level) {
     const std::vector<float>& texels = probe.image.levels[static_cast<std::size_t>(level)].texels;
     double sum = 0;
@@ -53,6 +36,21 @@ glm::dvec3 decoded(const glm::dvec3& srgb) {
 }
 
 }  // namespace
+
+glm::dvec3 look_up(const BakedImage& table, double NoV, double perceptual_roughness) {
+    const Level& level = table.image.levels[0];
+    const double x = std::clamp(std::sqrt(NoV), 0.0, 1.0) * (level.width - 1);
+    const double y = std::clamp(perceptual_roughness, 0.0, 1.0) * (level.height - 1);
+    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+    const int x1 = std::min(x0 + 1, level.width - 1), y1 = std::min(y0 + 1, level.height - 1);
+    const auto at = [&](int row, int column) {
+        const float* texel = table.image.texel(0, 0, row, column);
+        return glm::dvec3(texel[0], texel[1], texel[2]) / table.scale;
+    };
+    const double tx = x - x0, ty = y - y0;
+    return (1 - ty) * ((1 - tx) * at(y0, x0) + tx * at(y0, x1)) +
+           ty * ((1 - tx) * at(y1, x0) + tx * at(y1, x1));
+}
 
 BakedImage read_baked(const run::BakeReport& bake) {
     return {io::read_product(bake.writes.front()).image, bake.entry["scale"].get<double>()};

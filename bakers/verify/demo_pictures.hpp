@@ -16,6 +16,10 @@ struct BakedImage {
 };
 BakedImage read_baked(const run::BakeReport& bake);
 
+/// A table's first three channels at (NoV, perceptual roughness), bilinear, both ends clamped: a table of the
+/// default layout (sqrt(NoV) and perceptual roughness, the first and last texels at 0 and 1).
+glm::dvec3 look_up(const BakedImage& table, double NoV, double perceptual_roughness);
+
 /// How a built-in environment is shown.
 struct EnvironmentLook {
     std::string name, title, description;

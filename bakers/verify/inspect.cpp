@@ -1,41 +1,21 @@
 #include "bakers/verify/inspect.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "bakers/formats.hpp"
-#include "bakers/io/io.hpp"
-#include "bakers/job/json_text.hpp"
-#include "pbr/ibl/cubemap.hpp"
+#include "bakers/verify/metrics.hpp"
+#include "bakers/verify/product_file.hpp"
 
 namespace pbrbake::verify {
 namespace fs = std::filesystem;
 namespace {
 
-double scale_of(const io::FileInfo& info) {
-    double scale = 1;
-    if (const auto found = info.metadata.find("pbrbake:scale"); found != info.metadata.end())
-        std::from_chars(found->second.data(), found->second.data() + found->second.size(), scale);
-    return scale > 0 && std::isfinite(scale) ? scale : 1;
-}
-
-/// The weight of each texel of a face or picture: its solid angle, or 1.
-std::vector<double> weights(const Level& level, bool is_cube) {
-    std::vector<double> list(static_cast<std::size_t>(level.width) * level.height, 1.0);
-    if (is_cube)
-        for (int y = 0; y < level.height; ++y)
-            for (int x = 0; x < level.width; ++x)
-                list[static_cast<std::size_t>(y) * level.width + x] =
-                    pbr::cubemap_texel_solid_angle(level.width, x, y);
-    return list;
-}
-
 LevelSummary summarise(const Image& image, int index, double scale) {
     const Level& level = image.levels[static_cast<std::size_t>(index)];
     const bool is_cube = image.faces == 6;
-    const std::vector<double> weight = weights(level, is_cube);
+    const std::vector<double> weight = texel_weights(level, is_cube);
     const std::size_t channels = image.channels.size();
     LevelSummary summary{level.width, level.height, std::vector<ChannelSummary>(channels)};
     for (std::size_t c = 0; c < channels; ++c) {
@@ -61,46 +41,18 @@ LevelSummary summarise(const Image& image, int index, double scale) {
     return summary;
 }
 
-/// A JSON file beside a product, or null: a product without a record is still worth a look.
-Json document_beside(const fs::path& file) {
-    try {
-        return job::parse_json(job::read_text(file), file.string());
-    } catch (const Error&) {
-        return nullptr;
-    }
-}
-
-bool lists(const Json& entry, const std::string& name) {
-    if (!entry.is_object() || !entry.contains("outputs") || !entry["outputs"].is_array()) return false;
-    return std::any_of(entry["outputs"].begin(), entry["outputs"].end(), [&](const Json& output) {
-        return output.is_object() && output.value("path", Json()) == name;
-    });
-}
-
-Json record_of(const fs::path& file) {
-    const std::string name = file.filename().string();
-    if (Json sidecar = document_beside(file.string() + ".json"); lists(sidecar, name)) return sidecar;
-    const Json manifest = document_beside(file.parent_path() / "manifest.json");
-    if (manifest.is_object() && manifest.contains("products") && manifest["products"].is_array())
-        for (const Json& entry : manifest["products"])
-            if (lists(entry, name)) return entry;
-    return nullptr;
-}
-
 }  // namespace
 
 Inspection inspect(const fs::path& file) {
-    const io::ReadBack product = io::read_product(file);
+    const ProductFile product = read_product_file(file);
     Inspection inspection{product.format,
                           std::string(pixel_name(product.info.pixel)),
                           product.image.faces,
                           product.image.channels,
-                          scale_of(product.info),
-                          "relative",
+                          product.scale,
+                          product.units,
                           {},
-                          record_of(file)};
-    if (const auto units = product.info.metadata.find("pbrbake:units"); units != product.info.metadata.end())
-        inspection.units = units->second;
+                          product.record};
     for (int level = 0; level < static_cast<int>(product.image.levels.size()); ++level)
         inspection.levels.push_back(summarise(product.image, level, inspection.scale));
     return inspection;

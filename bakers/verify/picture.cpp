@@ -11,13 +11,11 @@
 #include "bakers/io/io.hpp"
 #include "bakers/verify/page.hpp"
 #include "pbr/brdf/roughness.hpp"
+#include "pbr/camera/exposure.hpp"
 #include "pbr/ibl/ld.hpp"
 
 namespace pbrbake::verify {
 namespace {
-
-constexpr double kSaturationOverEv =
-    1.2;  // lens and sensor of ISO 12232's saturation speed: 78 / (100 * .65)
 
 /// Where the six faces lie in the unfolded cross, in faces: +X -X +Y -Y +Z -Z.
 constexpr std::array<std::array<int, 2>, 6> kCrossPlaces{{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}}};
@@ -46,13 +44,20 @@ glm::dvec3 ball_normal(const View& view, double u, double v) {
     return u * view.right + v * view.up - depth * view.forward;
 }
 
+/// The same, of the nearest point of the disk for (u, v) beyond it.
+glm::dvec3 rim_clamped_normal(const View& view, double u, double v) {
+    constexpr double kRim = 0.9999;
+    const double shrink = std::min(1.0, kRim / std::max(std::hypot(u, v), kRim));
+    return ball_normal(view, u * shrink, v * shrink);
+}
+
 }  // namespace
 
 std::string data_uri(const Picture& picture) {
     return "data:image/png;base64," + base64(io::encode_png8(picture.width, picture.height, picture.rgb));
 }
 
-double exposure_of_ev100(double ev100) { return 1 / (kSaturationOverEv * std::exp2(ev100)); }
+double exposure_of_ev100(double ev100) { return pbr::exposure_by_saturation(pbr::Ev100<double>(ev100)); }
 
 std::uint8_t srgb_byte(double linear) {
     if (!(linear > 0)) return 0;
@@ -131,12 +136,13 @@ View::View(const glm::dvec3& towards) {
     up = glm::cross(right, forward);
 }
 
+glm::dvec3 reflected_at(const View& view, double u, double v) {
+    return glm::reflect(view.forward, rim_clamped_normal(view, u, v));
+}
+
 Picture ball_picture(int size, const View& view, const BallShade& shade) {
-    constexpr double kRim = 0.9999;
     return rendered(size, size, [&](double x, double y) {
-        const double u = 2 * x / size - 1, v = 1 - 2 * y / size;
-        const double shrink = std::min(1.0, kRim / std::max(std::hypot(u, v), kRim));
-        const glm::dvec3 normal = ball_normal(view, u * shrink, v * shrink);
+        const glm::dvec3 normal = rim_clamped_normal(view, 2 * x / size - 1, 1 - 2 * y / size);
         return shade(normal, glm::reflect(view.forward, normal));
     });
 }

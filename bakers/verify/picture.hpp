@@ -30,8 +30,7 @@ struct Picture {
 /// "data:image/png;base64,…"
 std::string data_uri(const Picture& picture);
 
-/// Multiplies luminance in cd/m^2 so that 1 is what saturates a sensor at this exposure value: 1 / (1.2 *
-/// 2^EV100) (ISO 2720 and 12232 as in Lagarde & de Rousiers 2014, 5.1.2).
+/// pbr::exposure_by_saturation: multiplies luminance in cd/m^2 so that 1 is what saturates a sensor.
 double exposure_of_ev100(double ev100);
 
 /// The display transform: sRGB's curve (IEC 61966-2-1) of a linear value, as a byte; clipped to [0, 1]
@@ -72,6 +71,10 @@ struct View {
     explicit View(const glm::dvec3& towards);
     glm::dvec3 right, up, forward;
 };
+
+/// The direction that a mirror ball reflects the view into at (u, v) of its disk, v upwards, seen from afar;
+/// of its rim beyond.
+glm::dvec3 reflected_at(const View& view, double u, double v);
 
 /// A mirror ball seen from afar: the colour of each point of the disk from its normal and the direction it
 /// reflects into. `shade` is called with both. Pixels outside the disk get the colour of its nearest point.

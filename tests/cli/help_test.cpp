@@ -19,6 +19,8 @@ TEST(Help, FitsEightyColumns) {
                                                {"dfg", "--help"},
                                                {"probe", "-h"},
                                                {"inspect", "--help"},
+                                               {"compare", "--help"},
+                                               {"study", "--help"},
                                                {"demo", "--help"}}) {
         const Outcome outcome = run_program(arguments);
         EXPECT_EQ(outcome.code, 0);
@@ -34,7 +36,7 @@ TEST(Help, FitsEightyColumns) {
 
 TEST(Help, ListsCommandsAndFlags) {
     const std::string commands = run_program({"--help"}).out;
-    for (const char* command : {"bake", "dfg", "probe", "inspect", "demo"})
+    for (const char* command : {"bake", "dfg", "probe", "inspect", "compare", "demo"})
         EXPECT_THAT(commands, HasSubstr(command));
     EXPECT_THAT(run_program({"dfg", "--help"}).out, HasSubstr("--align auto|center|ends"));
 }
@@ -72,6 +74,11 @@ TEST(Usage, UnknownWordsExitWithTwoAndASuggestion) {
               "--threads: found \"0\"; allowed: integer 1 to 1024"},
              {{"dfg"}, "-o: missing"},
              {{"probe", "-o", "/nowhere/a.exr"}, "SOURCE: missing"},
+             {{"compare", "/nowhere"}, "B: missing"},
+             {{"compare", "/nowhere", "/nowhere", "--max-ulp", "x"}, "--max-ulp: found \"x\""},
+             {{"study"}, "TOPIC: missing; allowed: shading"},
+             {{"study", "shades"}, "found \"shades\"; allowed: shading"},
+             {{"study", "shading", "--environment", "moon"}, "--environment: found \"moon\""},
              {{"bake"}, "no job file given"}}) {
         const Outcome outcome = run_program(arguments);
         EXPECT_EQ(outcome.code, 2) << outcome.err;

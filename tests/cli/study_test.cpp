@@ -1,0 +1,37 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bakers/job/json_text.hpp"
+#include "tests/cli/program.hpp"
+
+namespace pbrbake::test {
+namespace {
+
+TEST(StudyShading, WritesAPageAndFigures) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        run_program({"study", "shading", "--size", "8", "-o", (folder / "study").string()});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, testing::EndsWith("study/index.html\n"));
+    EXPECT_THAT(read_file(folder / "study/index.html"), testing::HasSubstr("Gold, a plane at grazing view"));
+    const Json figures = job::parse_json(read_file(folder / "study/figures.json"), "figures.json");
+    EXPECT_EQ(figures["scenes"].size(), 3u * 4 * 2);  // scenes, roughnesses, ways to shade
+    // On the rough plane, look-ups along R lose most, and the dominant direction takes some of it back.
+    double mirrored = 0, dominant = 0;
+    for (const Json& scene : figures["scenes"])
+        if (scene["scene"] != "spheres" && scene["perceptual_roughness"] == 0.8)
+            (scene["shading"] == "split_sum" ? mirrored : dominant) = scene["errors"].back()["relative_rms"];
+    EXPECT_GT(mirrored, 0.2);
+    EXPECT_LT(dominant, 0.8 * mirrored);
+}
+
+TEST(StudyShading, KeepsAJobOfSomeoneElse) {
+    const TemporaryFolder folder;
+    folder.write("job.json", "{}");
+    const Outcome outcome = run_program({"study", "shading", "-o", folder.path().string()});
+    EXPECT_EQ(outcome.code, 5);
+    EXPECT_EQ(read_file(folder / "job.json"), "{}");
+}
+
+}  // namespace
+}  // namespace pbrbake::test
