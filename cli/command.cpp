@@ -20,6 +20,7 @@ std::vector<Command> commands() {
     }
     list.push_back(
         {"inspect", "Shows what a product holds: levels, range, energy, certificate", inspect_command});
+    list.push_back({"study", "Shows what accuracy costs in time, method by method", study_command});
     list.push_back({"demo", "Bakes built-in inputs, and writes a page to look at", demo_command});
     return list;
 }

@@ -27,6 +27,7 @@ ExitCode one_shot_command(const std::string& kind, const Arguments& arguments);
 ExitCode convert_command(const Arguments& arguments);
 ExitCode inspect_command(const Arguments& arguments);
 ExitCode demo_command(const Arguments& arguments);
+ExitCode study_command(const Arguments& arguments);
 
 /// One line on stderr for each mistake: "pbrbake: error: …".
 void print_error(const Error& error);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "bakers/io/io.hpp"
 #include "bakers/verify/page.hpp"
 
 namespace pbrbake::verify {
@@ -53,10 +52,6 @@ glm::dvec3 decoded(const glm::dvec3& srgb) {
 }
 
 }  // namespace
-
-BakedImage read_baked(const run::BakeReport& bake) {
-    return {io::read_product(bake.writes.front()).image, bake.entry["scale"].get<double>()};
-}
 
 const std::vector<EnvironmentLook>& environment_looks() {
     static const std::vector<EnvironmentLook> looks{
