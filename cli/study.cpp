@@ -1,15 +1,17 @@
 // pbrbake study: what accuracy costs in time.
 
-#include "bakers/verify/study.hpp"
-
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
 #include "bakers/job/json_text.hpp"
+#include "bakers/job/words.hpp"
 #include "bakers/run/atomic_file.hpp"
+#include "bakers/verify/study_plot.hpp"
+#include "bakers/verify/study_report.hpp"
 #include "cli/execute.hpp"
 #include "cli/interrupt.hpp"
 
@@ -17,6 +19,8 @@ namespace pbrbake::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostPictureBytes = 3'500'000;  // leaves the page below 5 MB
 
 /// A folder of its own for what a study bakes, gone when the study is.
 class ScratchFolder {
@@ -56,9 +60,36 @@ verify::RepeatLimits limits_of(const Given& given, verify::Depth depth) {
     return limits;
 }
 
-void write_results(const verify::Study& study, const fs::path& folder) {
+/// The page comes last: where it is, the rest is.
+void write_results(const verify::Study& study, const verify::PictureBook& pictures,
+                   const std::string& command, const fs::path& folder) {
     run::write_atomically(folder / "study.csv", verify::study_csv(study));
     run::write_atomically(folder / "study.json", job::to_text(verify::study_json(study)));
+    run::write_atomically(folder / "study.svg", verify::plot_file(study.cases.front()));
+    run::write_atomically(folder / "study.html", verify::study_page(study, pictures, command));
+}
+
+/// The cases asked for, all of them by default.
+std::vector<verify::StudyCase> chosen(std::vector<verify::StudyCase> cases,
+                                      const std::vector<std::string>& only) {
+    std::vector<std::string> names;
+    for (const verify::StudyCase& asked : cases) names.push_back(asked.name);
+    for (const std::string& name : only)
+        if (std::ranges::find(names, name) == names.end())
+            throw Error(
+                ExitCode::usage, "--only",
+                "found \"" + name + "\"; allowed: " + job::joined(names) + job::did_you_mean(name, names));
+    if (!only.empty())
+        std::erase_if(cases, [&](const verify::StudyCase& asked) {
+            return std::ranges::find(only, asked.name) == only.end();
+        });
+    return cases;
+}
+
+std::string command_line(const Arguments& arguments) {
+    std::string line = "pbrbake study";
+    for (const std::string& argument : arguments) line.append(" ").append(argument);
+    return line;
 }
 
 }  // namespace
@@ -69,11 +100,15 @@ ExitCode study_command(const Arguments& arguments) {
                     "reference, its CPU time measured until the median is known to 5 %.");
     options.add_positional(
         {{"job", "JOB", "Job file whose bakes are studied, instead of the built-in suite."}});
-    options.add({"what to study",
-                 {{"suite", "quick|full",
-                   "Size of the built-in suite, or of the dials tried on a job. "
-                   "[default: quick]"}}});
-    options.add({"output", {{"o,output", "DIR", "Folder for study.json and study.csv. [default: study]"}}});
+    options.add(
+        {"what to study",
+         {{"suite", "quick|full",
+           "Size of the built-in suite, or of the dials tried on a job. "
+           "[default: quick]"},
+          {"only", "NAME", "Studies the case of this name alone; may be given again.", false, true}}});
+    options.add({"output",
+                 {{"o,output", "DIR",
+                   "Folder for study.html, study.json, study.csv and study.svg. [default: study]"}}});
     options.add({"running",
                  {{"threads", "N",
                    "Worker threads of references and certificates; times are of one. "
@@ -96,10 +131,15 @@ ExitCode study_command(const Arguments& arguments) {
     study_options.cancel = &catch_interrupts();
     if (!given->is_on("quiet"))
         study_options.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+    verify::PictureBook pictures(kMostPictureBytes);
+    study_options.inspect = [&pictures](auto&&... seen) { pictures.take(seen...); };
     try {
         const verify::Study study = verify::run_study(
-            job ? verify::job_cases(*job, depth) : verify::suite_cases(depth, scratch.path()), study_options);
-        write_results(study, given->find("output").value_or("study"));
+            chosen(job ? verify::job_cases(*job, depth) : verify::suite_cases(depth, scratch.path()),
+                   given->all("only")),
+            study_options);
+        const fs::path folder = given->find("output").value_or("study");
+        write_results(study, pictures, command_line(arguments), folder);
         std::printf("%s", given->is_on("json") ? job::to_text(verify::study_json(study)).c_str()
                                                : verify::study_table(study).c_str());
     } catch (const Cancelled&) {

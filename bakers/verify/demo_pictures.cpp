@@ -43,14 +43,6 @@ double mean_luminance(const BakedImage& probe, int level) {
     return sum / (static_cast<double>(texels.size()) / 3) / probe.scale;
 }
 
-/// False colours are display-encoded, and put() encodes: this undoes it.
-glm::dvec3 decoded(const glm::dvec3& srgb) {
-    glm::dvec3 linear;
-    for (int c = 0; c < 3; ++c)
-        linear[c] = srgb[c] <= 0.04045 ? srgb[c] / 12.92 : std::pow((srgb[c] + 0.055) / 1.055, 2.4);
-    return linear;
-}
-
 }  // namespace
 
 const std::vector<EnvironmentLook>& environment_looks() {
@@ -125,7 +117,8 @@ Picture difference_ball(const EnvironmentLook& look, const BakedImage& a, const 
                  decades = std::log(kMostDifferenceShown / kLeastDifferenceShown);
     return ball_picture(kBallSize, View(look.camera), [&](const glm::dvec3&, const glm::dvec3& reflected) {
         const double share = std::abs(luminance(of_a(reflected) - of_b(reflected))) / mean;
-        return decoded(false_colour(std::log(std::max(share / kLeastDifferenceShown, 1.0)) / decades));
+        return linear_of_display(
+            false_colour(std::log(std::max(share / kLeastDifferenceShown, 1.0)) / decades));
     });
 }
 
@@ -140,8 +133,8 @@ Picture channel_picture(const BakedImage& table, int channel, double& highest) {
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < level.width; ++x)
             put(picture, x, y,
-                decoded(false_colour(table.image.texel(0, 0, y, x)[channel] / table.scale /
-                                     std::max(highest, 1e-30))));
+                linear_of_display(false_colour(table.image.texel(0, 0, y, x)[channel] / table.scale /
+                                               std::max(highest, 1e-30))));
     return picture;
 }
 
@@ -151,7 +144,7 @@ Picture rgb_picture(const BakedImage& table) {
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < level.width; ++x) {
             const float* texel = table.image.texel(0, 0, y, x);
-            put(picture, x, y, decoded(glm::dvec3(texel[0], texel[1], texel[2]) / table.scale));
+            put(picture, x, y, linear_of_display(glm::dvec3(texel[0], texel[1], texel[2]) / table.scale));
         }
     return picture;
 }
