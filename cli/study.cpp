@@ -10,6 +10,7 @@
 #include "bakers/job/json_text.hpp"
 #include "bakers/job/words.hpp"
 #include "bakers/run/atomic_file.hpp"
+#include "bakers/verify/study_effects.hpp"
 #include "bakers/verify/study_plot.hpp"
 #include "bakers/verify/study_report.hpp"
 #include "cli/execute.hpp"
@@ -60,13 +61,27 @@ verify::RepeatLimits limits_of(const Given& given, verify::Depth depth) {
     return limits;
 }
 
+struct Results {
+    verify::Study study;
+    std::vector<verify::EffectGroup> effects;
+
+    Json json() const {
+        Json document = verify::study_json(study);
+        if (!effects.empty()) document["effects"] = verify::effects_json(effects);
+        return document;
+    }
+};
+
 /// The page comes last: where it is, the rest is.
-void write_results(const verify::Study& study, const verify::PictureBook& pictures,
-                   const std::string& command, const fs::path& folder) {
-    run::write_atomically(folder / "study.csv", verify::study_csv(study));
-    run::write_atomically(folder / "study.json", job::to_text(verify::study_json(study)));
-    run::write_atomically(folder / "study.svg", verify::plot_file(study.cases.front()));
-    run::write_atomically(folder / "study.html", verify::study_page(study, pictures, command));
+void write_results(const Results& results, const verify::PictureBook& pictures, const std::string& command,
+                   const fs::path& folder) {
+    run::write_atomically(folder / "study.csv", verify::study_csv(results.study));
+    run::write_atomically(folder / "study.json", job::to_text(results.json()));
+    if (!results.study.cases.empty())
+        run::write_atomically(folder / "study.svg", verify::plot_file(results.study.cases.front()));
+    const std::string effects = results.effects.empty() ? "" : verify::effects_html(results.effects);
+    run::write_atomically(folder / "study.html",
+                          verify::study_page(results.study, pictures, command, effects));
 }
 
 /// The cases asked for, all of them by default.
@@ -92,9 +107,7 @@ std::string command_line(const Arguments& arguments) {
     return line;
 }
 
-}  // namespace
-
-ExitCode study_command(const Arguments& arguments) {
+Options study_command_options() {
     Options options("study", "[OPTIONS] [JOB]",
                     "Shows what accuracy costs in time: every method at every setting, its error against the "
                     "reference, its CPU time measured until the median is known to 5 %.");
@@ -103,9 +116,10 @@ ExitCode study_command(const Arguments& arguments) {
     options.add(
         {"what to study",
          {{"suite", "quick|full",
-           "Size of the built-in suite, or of the dials tried on a job. "
-           "[default: quick]"},
-          {"only", "NAME", "Studies the case of this name alone; may be given again.", false, true}}});
+           "Size of the built-in suite, or of the dials tried on a job. [default: quick]"},
+          {"only", "NAME", "Studies the case of this name alone; may be given again.", false, true},
+          {"effects", "",
+           "Measures what each effect costs, on and off; alone unless a suite or job is given too.", true}}});
     options.add({"output",
                  {{"o,output", "DIR",
                    "Folder for study.html, study.json, study.csv and study.svg. [default: study]"}}});
@@ -114,34 +128,54 @@ ExitCode study_command(const Arguments& arguments) {
                    "Worker threads of references and certificates; times are of one. "
                    "[default: all processors]"},
                   {"budget-s", "N",
-                   "Wall seconds after which times are not repeated further. "
-                   "[default: 90, full: 1500]"},
+                   "Wall seconds after which times are not repeated further. [default: 90, full: 1500]"},
                   {"json", "", "Prints the study as JSON instead of the table.", true},
-                  {"quiet", "", "Shows errors alone.", true}}});
-    const auto given = options.parse(arguments);
-    if (!given) return ExitCode::done;
+                  {"quiet", "", "Shows errors alone, and the result.", true}}});
+    return options;
+}
 
+Results run_all(const Given& given, const verify::StudyOptions& options) {
+    const verify::Depth depth = depth_of(given);
+    const auto job = given.find("job");
+    const bool effects = given.is_on("effects");
+    Results results;
+    if (!effects || job || given.has("suite") || given.has("only"))
+        results.study = verify::run_study(
+            chosen(job ? verify::job_cases(*job, depth) : verify::suite_cases(depth, options.folder),
+                   given.all("only")),
+            options);
+    if (effects) results.effects = verify::study_effects(options);
+    return results;
+}
+
+void print_results(const Results& results, bool as_json) {
+    if (as_json) {
+        std::printf("%s", job::to_text(results.json()).c_str());
+        return;
+    }
+    if (!results.study.cases.empty()) std::printf("%s", verify::study_table(results.study).c_str());
+    std::printf("%s", verify::effects_table(results.effects).c_str());
+}
+
+}  // namespace
+
+ExitCode study_command(const Arguments& arguments) {
+    const auto given = study_command_options().parse(arguments);
+    if (!given) return ExitCode::done;
     const ScratchFolder scratch;
-    const verify::Depth depth = depth_of(*given);
-    const auto job = given->find("job");
-    verify::StudyOptions study_options;
-    study_options.folder = scratch.path();
-    study_options.threads = threads_of(*given);
-    study_options.limits = limits_of(*given, depth);
-    study_options.cancel = &catch_interrupts();
-    if (!given->is_on("quiet"))
-        study_options.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
     verify::PictureBook pictures(kMostPictureBytes);
-    study_options.inspect = [&pictures](auto&&... seen) { pictures.take(seen...); };
+    verify::StudyOptions options;
+    options.folder = scratch.path();
+    options.threads = threads_of(*given);
+    options.limits = limits_of(*given, depth_of(*given));
+    options.cancel = &catch_interrupts();
+    options.inspect = [&pictures](auto&&... seen) { pictures.take(seen...); };
+    if (!given->is_on("quiet"))
+        options.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
     try {
-        const verify::Study study = verify::run_study(
-            chosen(job ? verify::job_cases(*job, depth) : verify::suite_cases(depth, scratch.path()),
-                   given->all("only")),
-            study_options);
-        const fs::path folder = given->find("output").value_or("study");
-        write_results(study, pictures, command_line(arguments), folder);
-        std::printf("%s", given->is_on("json") ? job::to_text(verify::study_json(study)).c_str()
-                                               : verify::study_table(study).c_str());
+        const Results results = run_all(*given, options);
+        write_results(results, pictures, command_line(arguments), given->find("output").value_or("study"));
+        print_results(results, given->is_on("json"));
     } catch (const Cancelled&) {
         return ExitCode::interrupted;
     }

@@ -115,6 +115,9 @@ Study run_study(std::vector<StudyCase> cases, const StudyOptions& options);
 /// schemas/study.schema.json describes it.
 Json study_json(const Study& study);
 
+/// A median of a study's document: value, interval, spread, count.
+Json median_json(const Median& median);
+
 /// One line a point, with a heading.
 std::string study_csv(const Study& study);
 

@@ -19,13 +19,6 @@ constexpr std::size_t kWidth = 80;
 /// JSON has no infinity.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json median_json(const Median& median) {
-    return {{"median", median.value},
-            {"interval", {median.low, finite(median.high)}},
-            {"spread", median.spread},
-            {"count", median.count}};
-}
-
 Json law_json(const std::optional<PowerLaw>& law) {
     if (!law) return nullptr;
     return {{"exponent", law->exponent}, {"coefficient", law->coefficient},
@@ -173,6 +166,13 @@ std::string table_of(const StudiedCase& studied) {
 }
 
 }  // namespace
+
+Json median_json(const Median& median) {
+    return {{"median", median.value},
+            {"interval", {median.low, finite(median.high)}},
+            {"spread", median.spread},
+            {"count", median.count}};
+}
 
 Json study_json(const Study& study) {
     const Machine machine = this_machine();

@@ -7,6 +7,7 @@
 #include "bakers/run/run.hpp"
 #include "bakers/verify/machine.hpp"
 #include "bakers/verify/page.hpp"
+#include "bakers/verify/study_job.hpp"
 #include "bakers/verify/study_plot.hpp"
 
 namespace pbrbake::verify {
@@ -151,13 +152,8 @@ std::string knee_text(const StudiedCase& studied) {
 
 std::string reproduce(const StudiedCase& studied) {
     const std::size_t shown = studied.knee.value_or(studied.base);
-    Json bake = studied.asked.bake;
+    Json bake = with_overrides(studied.asked.bake, studied.points[shown].step.overrides);
     bake["name"] = studied.asked.name;
-    for (const auto& [key, value] : studied.points[shown].step.overrides.items())
-        if (value.is_null())
-            bake.erase(key);
-        else
-            bake[key] = value;
     return "<details><summary>The bake of " + setting(studied, shown) + " as a job</summary><pre>" +
            escaped(job::to_text({{"version", 1}, {"bakes", Json::array({bake})}})) + "</pre></details>\n";
 }
@@ -240,7 +236,8 @@ std::string method_text(const std::string& command) {
 
 }  // namespace
 
-std::string study_page(const Study& study, const PictureBook& pictures, const std::string& command) {
+std::string study_page(const Study& study, const PictureBook& pictures, const std::string& command,
+                       const std::string& more) {
     const Machine machine = this_machine();
     std::string body =
         "<style>" + plot_style() + std::string(kStyle) +
@@ -253,9 +250,9 @@ std::string study_page(const Study& study, const PictureBook& pictures, const st
             fact(std::to_string(machine.threads) + " × ",
                  escaped(machine.processor) + ", " + escaped(machine.compiler)) +
             fact(escaped(std::string(run::tool_version()).substr(8)), "version of pbrbake") + "</ul>\n";
-    body += summary(study);
+    if (!study.cases.empty()) body += summary(study);
     for (const StudiedCase& studied : study.cases) body += case_html(studied, pictures);
-    body += method_text(command) + "<script>" + std::string(kScript) + "</script>\n";
+    body += more + method_text(command) + "<script>" + std::string(kScript) + "</script>\n";
     return page("pbrbake study", body);
 }
 

@@ -8,6 +8,8 @@
 namespace pbrbake::verify {
 
 /// The page: one file, nothing from a network. `command` is what to type to make it again.
-std::string study_page(const Study& study, const PictureBook& pictures, const std::string& command);
+/// `more` is HTML that goes before the account of the method: effects_html, or nothing.
+std::string study_page(const Study& study, const PictureBook& pictures, const std::string& command,
+                       const std::string& more);
 
 }  // namespace pbrbake::verify

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
-#include "bakers/job/job.hpp"
 #include "bakers/run/bake_one.hpp"
 #include "bakers/verify/study.hpp"
+#include "bakers/verify/study_job.hpp"
 
 namespace pbrbake::verify {
 namespace fs = std::filesystem;
@@ -20,26 +20,6 @@ constexpr const char* kStorageFloor = "quantisation_error";
 
 double wall_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// A case's bake with some properties replaced; null ones are left to the schema's defaults.
-Json with_overrides(Json bake, const Json& overrides) {
-    for (const auto& [key, value] : overrides.items())
-        if (value.is_null())
-            bake.erase(key);
-        else
-            bake[key] = value;
-    return bake;
-}
-
-/// One bake as a job of its own, by the door that one-shot commands come in by.
-job::Job job_of(const StudyCase& asked, Json bake, const std::string& name, const fs::path& folder) {
-    bake["name"] = name;
-    Json document = asked.around.is_object() ? asked.around : Json::object();
-    document["version"] = 1;
-    const std::string format = bake.value("format", "exr");
-    document["bakes"] = Json::array({std::move(bake)});
-    return job::from_document(std::move(document), {folder / (name + "." + format), {}});
 }
 
 /// The largest figure of each metric, over levels.
@@ -111,8 +91,8 @@ class StudyRun {
     BakedImage bake_reference(StudiedCase& studied) const {
         Json bake = with_overrides(studied.asked.bake, *studied.asked.reference);
         bake["certify"] = "sampled";
-        const job::Job job =
-            job_of(studied.asked, std::move(bake), studied.asked.name + "_reference", options_.folder);
+        const job::Job job = single_bake_job(studied.asked.around, std::move(bake),
+                                             studied.asked.name + "_reference", options_.folder);
         const run::BakeReport report = baked(job);
         if (report.status == run::Status::failed) throw Error(report.code, "", report.error);
         studied.reference_cpu_s = report.seconds.at(run::Stage::bake).cpu;
@@ -157,8 +137,8 @@ class StudyRun {
             Json bake = with_overrides(studied.asked.bake, point.step.overrides);
             const bool states_error = bake.contains("accuracy") && bake["accuracy"].is_object();
             bake["certify"] = !reference ? "full" : states_error ? "sampled" : "none";
-            Timed timed{job_of(studied.asked, std::move(bake),
-                               studied.asked.name + "_" + std::to_string(number), options_.folder),
+            Timed timed{single_bake_job(studied.asked.around, std::move(bake),
+                                        studied.asked.name + "_" + std::to_string(number), options_.folder),
                         inputs, index, number};
             const run::BakeReport report = baked(timed.job);
             if (report.status == run::Status::failed) throw Error(report.code, "", report.error);
