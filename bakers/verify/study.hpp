@@ -115,6 +115,9 @@ Study run_study(std::vector<StudyCase> cases, const StudyOptions& options);
 /// schemas/study.schema.json describes it.
 Json study_json(const Study& study);
 
+/// How well a median is known, in per cent: "4.20"; "?" of fewer than six values.
+std::string known_percent(const Median& median);
+
 /// A median of a study's document: value, interval, spread, count.
 Json median_json(const Median& median);
 

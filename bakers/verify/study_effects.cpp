@@ -259,41 +259,49 @@ bool keeps_channels(const BakedImage& off, const BakedImage& on) {
     return true;
 }
 
-/// Rows of "ggx" alone and with each other term; a term that can't stand beside it is left out.
-Unmeasured table_group(const StudyOptions& options) {
-    Unmeasured group{{"A table of 64 x 64: terms", "bake", {}}, {}};
+/// A job of a table of 64 x 64 with these terms; null if they can't stand together.
+std::shared_ptr<const job::Job> table_job(const Json& terms, const std::filesystem::path& folder) {
+    try {
+        return std::make_shared<const job::Job>(single_bake_job(
+            Json::object(), {{"kind", "dfg"}, {"size", 64}, {"terms", terms}, {"certify", "none"}},
+            "effect_" + terms.back().get<std::string>(), folder));
+    } catch (const job::JobError&) {
+        return nullptr;
+    }
+}
+
+void add_table(Unmeasured& group, const std::string& name, const std::shared_ptr<const job::Job>& job,
+               const StudyOptions& options, std::optional<BakedImage>& without) {
     run::Options run_options;
     run_options.threads = options.threads;
     run_options.cancel = options.cancel;
+    const run::BakeReport report = run::run_bake(*job, job->bakes.front(), run_options);
+    if (report.status == run::Status::interrupted) throw Cancelled{};
+    if (report.status == run::Status::failed) throw Error(report.code, "", report.error);
+    EffectCost row{name, {}, report.bake_evaluations, 0, true};
+    for (const Json& output : report.entry["outputs"]) row.bytes += output["bytes"].get<std::uint64_t>();
+    const BakedImage product = read_baked(report);
+    if (!without) without = product;
+    if (row.evaluations.contains("ggx")) row.rest_unchanged = keeps_channels(*without, product);
+    group.add(std::move(row), [job](int times) {
+        double cpu = 0;
+        for (int i = 0; i < times; ++i) cpu += run::time_bake_stage(job->bakes.front(), {}, {}).cpu;
+        return cpu / times;
+    });
+}
+
+/// Tables of "ggx" alone and with each other term; a term that has axes of its own stands alone.
+Unmeasured table_group(const StudyOptions& options) {
+    Unmeasured group{{"A table of 64 x 64: terms", "bake", {}}, {}};
     std::optional<BakedImage> without;
-    const Json& terms =
-        job::job_schema().root()["definitions"]["dfg"]["properties"]["terms"]["items"]["enum"];
-    for (const Json& term : terms) {
-        Json bake{{"kind", "dfg"}, {"size", 64}, {"terms", {"ggx"}}, {"certify", "none"}};
-        const bool is_base = term == "ggx";
-        if (!is_base) bake["terms"].push_back(term);
-        const auto name = term.get<std::string>();
-        try {
-            const auto job = std::make_shared<const job::Job>(
-                single_bake_job(Json::object(), std::move(bake), "effect_" + name, options.folder));
-            const run::BakeReport report = run::run_bake(*job, job->bakes.front(), run_options);
-            if (report.status == run::Status::interrupted) throw Cancelled{};
-            if (report.status == run::Status::failed) throw Error(report.code, "", report.error);
-            const BakedImage product = read_baked(report);
-            if (is_base) without = product;
-            EffectCost row{is_base ? "none: ggx alone" : name, {}, report.bake_evaluations, 0, true};
-            for (const Json& output : report.entry["outputs"])
-                row.bytes += output["bytes"].get<std::uint64_t>();
-            row.rest_unchanged = keeps_channels(*without, product);
-            group.add(std::move(row), [job](int times) {
-                double cpu = 0;
-                for (int i = 0; i < times; ++i) cpu += run::time_bake_stage(job->bakes.front(), {}, {}).cpu;
-                return cpu / times;
-            });
-        } catch (const Error& error) {
-            if (is_base) throw;
-            if (options.tell) options.tell("effect " + name + " is left out: " + error.what());
-        }
+    add_table(group, "none: ggx alone", table_job({"ggx"}, options.folder), options, without);
+    for (const Json& term :
+         job::job_schema().root()["definitions"]["dfg"]["properties"]["terms"]["items"]["enum"]) {
+        if (term == "ggx") continue;
+        if (const auto beside = table_job({"ggx", term}, options.folder))
+            add_table(group, term.get<std::string>(), beside, options, without);
+        else if (const auto alone = table_job(Json::array({term}), options.folder))
+            add_table(group, term.get<std::string>() + ", its own table", alone, options, without);
     }
     return group;
 }

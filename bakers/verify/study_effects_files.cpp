@@ -26,11 +26,6 @@ std::string seconds_text(double seconds) {
     return seconds < 1e-3 ? number(seconds * 1e6) + " us" : number(seconds * 1e3) + " ms";
 }
 
-std::string known_text(const EffectCost& row) {
-    const double known = 100 * row.timing.ratio.known_to();
-    return std::isfinite(known) ? number(known) : "?";
-}
-
 }  // namespace
 
 Json effects_json(const std::vector<EffectGroup>& groups) {
@@ -55,9 +50,9 @@ std::string effects_table(const std::vector<EffectGroup>& groups) {
         text.append(group.title).append("\n\n");
         for (const EffectCost& row : group.rows) {
             std::array<char, 128> line{};
-            std::snprintf(line.data(), line.size(), "%-28s %8s %6s %10s  ", row.name.c_str(),
+            std::snprintf(line.data(), line.size(), "%-28s %8s %7s %10s  ", row.name.c_str(),
                           number(row.timing.ratio.value).c_str(),
-                          &row == group.rows.data() ? "" : ("±" + known_text(row)).c_str(),
+                          &row == group.rows.data() ? "" : (known_percent(row.timing.ratio) + " %").c_str(),
                           seconds_text(row.timing.seconds.value).c_str());
             text += line.data();
             std::string counts = counts_text(row);

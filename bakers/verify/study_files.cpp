@@ -143,13 +143,12 @@ std::string table_of(const StudiedCase& studied) {
             continue;
         }
         const bool is_knee = studied.knee == i;
-        const double known = studied.base == i ? 0 : 100 * point.timing.ratio.known_to();
-        text +=
-            table_row({name, point.step.label, number(point.error), number(point.timing.ratio.value),
-                       std::isfinite(known) ? number(known) : "?", short_seconds(point.timing.seconds.value),
-                       is_knee                   ? "knee"
-                       : is_on_front(studied, i) ? "front"
-                                                 : ""});
+        text += table_row({name, point.step.label, number(point.error), number(point.timing.ratio.value),
+                           studied.base == i ? "" : known_percent(point.timing.ratio),
+                           short_seconds(point.timing.seconds.value),
+                           is_knee                   ? "knee"
+                           : is_on_front(studied, i) ? "front"
+                                                     : ""});
     }
     if (studied.free_error)
         text += table_row(
@@ -166,6 +165,11 @@ std::string table_of(const StudiedCase& studied) {
 }
 
 }  // namespace
+
+std::string known_percent(const Median& median) {
+    const double known = 100 * median.known_to();
+    return std::isfinite(known) ? number(known) : "?";
+}
 
 Json median_json(const Median& median) {
     return {{"median", median.value},

@@ -210,9 +210,8 @@ class Plot {
                           point.step.label + (point.step.note.empty() ? "" : " (" + point.step.note + ")");
         tip += "\nerror " + number(point.error) +
                (point.level >= 0 ? ", worst at level " + std::to_string(point.level) : "");
-        tip += "\ntime " + number(point.timing.ratio.value) + " ± " +
-               number(100 * point.timing.ratio.known_to()) + " %, " +
-               number(point.timing.seconds.value * 1000) + " ms CPU";
+        tip += "\ntime " + number(point.timing.ratio.value) + " ± " + known_percent(point.timing.ratio) +
+               " %, " + number(point.timing.seconds.value * 1000) + " ms CPU";
         tip += "\n" + count(point.evaluations) + " evaluations, " + count(point.bytes) + " bytes";
         const double x = x_.at(point.timing.ratio.value), y = y_.at(point.error);
         return "<g class=\"point\" data-tip=\"" + escaped(tip) + "\" transform=\"translate(" + coordinate(x) +
@@ -243,8 +242,8 @@ class Plot {
 };
 
 std::string opening(double height, const std::string& more) {
-    return "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + coordinate(kWidth) +
-           " " + coordinate(height) + "\"" + more + ">\n";
+    return "<svg class=\"plot\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(height) + "\"" +
+           more + ">\n";
 }
 
 }  // namespace
@@ -265,8 +264,8 @@ std::string plot_mark(std::size_t series) {
 std::string plot_file(const StudiedCase& studied) {
     const double height =
         kHeight + kLegendRow * (1 + static_cast<double>((studied.asked.series.size() + 3) / 4));
-    std::string svg =
-        opening(height, " width=\"" + coordinate(kWidth) + "\" height=\"" + coordinate(height) + "\"");
+    std::string svg = opening(height, " xmlns=\"http://www.w3.org/2000/svg\" width=\"" + coordinate(kWidth) +
+                                          "\" height=\"" + coordinate(height) + "\"");
     svg +=
         "<style>svg{--ground:#fff;--text:#1c1d1f;--soft:#5d6167;--line:#e3e3df;background:var(--ground)}"
         "@media(prefers-color-scheme:dark){svg{--ground:#131416;--text:#e9e9e6;--soft:#9ba0a8;--line:#303338}"

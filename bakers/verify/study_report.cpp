@@ -101,6 +101,11 @@ std::string digit_table(const StudiedCase& studied) {
     return "<h3>The price of each further digit</h3>\n" + table.html();
 }
 
+std::string interval_text(const Median& ratio, bool is_base) {
+    if (is_base) return "is 1";
+    return std::isfinite(ratio.high) ? number(ratio.low) + " to " + number(ratio.high) : "unknown";
+}
+
 std::string point_table(const StudiedCase& studied) {
     Table table({"method", "setting", "error", "time", "95 % interval", "spread", "CPU here", "repeats",
                  "evaluations", "bytes", ""});
@@ -117,9 +122,9 @@ std::string point_table(const StudiedCase& studied) {
         const Median& ratio = point.timing.ratio;
         const bool on_front = std::ranges::find(studied.front, i) != studied.front.end();
         table.add({escaped(series_name(studied, point)), label, number(point.error), number(ratio.value),
-                   i == studied.base ? "is 1" : number(ratio.low) + " to " + number(ratio.high),
-                   percent(point.timing.seconds.spread), milliseconds(point.timing.seconds.value),
-                   std::to_string(point.timing.seconds.count), count(point.evaluations), count(point.bytes),
+                   interval_text(ratio, i == studied.base), percent(point.timing.seconds.spread),
+                   milliseconds(point.timing.seconds.value), std::to_string(point.timing.seconds.count),
+                   count(point.evaluations), count(point.bytes),
                    studied.knee == i ? "knee"
                    : on_front        ? "front"
                                      : ""});
