@@ -21,7 +21,7 @@ std::vector<Command> commands() {
     list.push_back(
         {"inspect", "Shows what a product holds: levels, range, energy, certificate", inspect_command});
     list.push_back({"compare", "Holds products against reference products", compare_command});
-    list.push_back({"study", "Shows what approximations lose", study_command});
+    list.push_back({"study", "Shows what accuracy costs in time, method by method", study_command});
     list.push_back({"demo", "Bakes built-in inputs, and writes a page to look at", demo_command});
     return list;
 }

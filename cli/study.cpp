@@ -1,82 +1,195 @@
-// pbrbake study: what approximations lose. One topic so far: shading.
+// pbrbake study: what accuracy costs in time.
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
-#include "bakers/io/io.hpp"
 #include "bakers/job/json_text.hpp"
+#include "bakers/job/words.hpp"
 #include "bakers/run/atomic_file.hpp"
-#include "bakers/verify/shading_study.hpp"
+#include "bakers/verify/study_effects.hpp"
+#include "bakers/verify/study_plot.hpp"
+#include "bakers/verify/study_report.hpp"
 #include "cli/execute.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/study_shading.hpp"
 
 namespace pbrbake::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes the job, unless that would replace a job that no study wrote.
-fs::path write_job(const fs::path& folder, const Json& document) {
-    const fs::path file = folder / "job.json";
-    const std::string text = job::to_text(document);
-    if (fs::exists(file) && !fs::exists(folder / "figures.json") && job::read_text(file) != text)
-        throw Error(ExitCode::unwritable_output, file.string(),
-                    "is there already, and not from a study; give another folder with -o");
-    run::write_atomically(file, text);
-    return file;
+constexpr std::size_t kMostPictureBytes = 3'500'000;  // leaves the page below 5 MB
+
+/// A folder of its own for what a study bakes, gone when the study is.
+class ScratchFolder {
+  public:
+    ScratchFolder() {
+        std::string name = (fs::temp_directory_path() / "pbrbake-study-XXXXXX").string();
+        if (!::mkdtemp(name.data()))
+            throw Error(ExitCode::unwritable_output, name, "cannot be made; set TMPDIR to a writable folder");
+        path_ = name;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+verify::Depth depth_of(const Given& given) {
+    const std::string suite = given.find("suite").value_or("quick");
+    if (suite != "quick" && suite != "full")
+        throw Error(ExitCode::usage, "--suite", "found \"" + suite + "\"; allowed: quick, full");
+    return suite == "full" ? verify::Depth::full : verify::Depth::quick;
 }
 
-ExitCode study_shading(const fs::path& folder, const verify::ShadingStudy& study) {
-    const Image environment = verify::study_environment(study.environment);
-    const fs::path job_file = write_job(folder, verify::shading_job(study));
-    run::write_atomically(folder / verify::study_environment_file(study),
-                          io::encode("exr", environment, {PixelType::float32, {}}));
-    const job::Job job = job::load(job_file);
-    run::Options options;
-    options.threads = study.threads;
-    options.cancel = &catch_interrupts();
-    const run::RunReport report = run::run(std::span(&job, 1), options);
-    for (const run::BakeReport& bake : report.bakes)
-        if (!bake.error.empty()) print_error(Error(bake.code, bake.bake->name, bake.error));
-    if (report.code != ExitCode::done) return report.code;
+verify::RepeatLimits limits_of(const Given& given, verify::Depth depth) {
+    constexpr int kQuick_s = 90, kFull_s = 1500, kMost_s = 86'400;
+    verify::RepeatLimits limits;
+    limits.budget_s = depth == verify::Depth::quick ? kQuick_s : kFull_s;
+    if (const auto text = given.find("budget-s"))
+        limits.budget_s = integer_option("budget-s", *text, 1, kMost_s);
+    return limits;
+}
 
-    Json figures;
-    const std::string page = verify::shading_page(study, environment, report, figures);
-    run::write_atomically(folder / "figures.json", job::to_text(figures));
-    run::write_atomically(folder / "index.html", page);
-    std::printf("%s\n", (folder / "index.html").c_str());
-    return ExitCode::done;
+struct Results {
+    verify::Study study;
+    std::vector<verify::EffectGroup> effects;
+
+    Json json() const {
+        Json document = verify::study_json(study);
+        if (!effects.empty()) document["effects"] = verify::effects_json(effects);
+        return document;
+    }
+};
+
+/// The page comes last: where it is, the rest is.
+void write_results(const Results& results, const verify::PictureBook& pictures, const std::string& command,
+                   const fs::path& folder) {
+    run::write_atomically(folder / "study.csv", verify::study_csv(results.study));
+    run::write_atomically(folder / "study.json", job::to_text(results.json()));
+    if (!results.study.cases.empty())
+        run::write_atomically(folder / "study.svg", verify::plot_file(results.study.cases.front()));
+    const std::string effects = results.effects.empty() ? "" : verify::effects_html(results.effects);
+    run::write_atomically(folder / "study.html",
+                          verify::study_page(results.study, pictures, command, effects));
+}
+
+/// The cases asked for, all of them by default.
+std::vector<verify::StudyCase> chosen(std::vector<verify::StudyCase> cases,
+                                      const std::vector<std::string>& only) {
+    std::vector<std::string> names;
+    for (const verify::StudyCase& asked : cases) names.push_back(asked.name);
+    for (const std::string& name : only)
+        if (std::ranges::find(names, name) == names.end())
+            throw Error(
+                ExitCode::usage, "--only",
+                "found \"" + name + "\"; allowed: " + job::joined(names) + job::did_you_mean(name, names));
+    if (!only.empty())
+        std::erase_if(cases, [&](const verify::StudyCase& asked) {
+            return std::ranges::find(only, asked.name) == only.end();
+        });
+    return cases;
+}
+
+std::string command_line(const Arguments& arguments) {
+    std::string line = "pbrbake study";
+    for (const std::string& argument : arguments) line.append(" ").append(argument);
+    return line;
+}
+
+Options study_command_options() {
+    Options options("study", "[OPTIONS] [JOB]",
+                    "Shows what accuracy costs in time: every method at every setting, its error against the "
+                    "reference, its CPU time measured until the median is known to 5 %.");
+    options.add_positional(
+        {{"job", "JOB", "Job file whose bakes are studied, instead of the built-in suite."}});
+    options.add(
+        {"what to study",
+         {{"suite", "quick|full",
+           "Size of the built-in suite, or of the dials tried on a job. [default: quick]"},
+          {"only", "NAME", "Studies the case of this name alone; may be given again.", false, true},
+          {"effects", "",
+           "Measures what each effect costs, on and off; alone unless a suite or job is given too.", true}}});
+    options.add(
+        {"shading",
+         {{"shading", "",
+           "Instead shades spheres and a plane by the exact integral, and by the split sum with baked products, "
+           "with Frostbite's dominant direction and without; writes index.html and figures.json.",
+           true},
+          {"environment", "NAME", "Built-in environment: indoor or outdoor. [default: indoor]"},
+          {"size", "N", "Pixels across a sphere. [integer 8 to 512; default: 48]"}}});
+    options.add({"output",
+                 {{"o,output", "DIR",
+                   "Folder for study.html, study.json, study.csv and study.svg. [default: study]"}}});
+    options.add({"running",
+                 {{"threads", "N",
+                   "Worker threads of references and certificates; times are of one. "
+                   "[default: all processors]"},
+                  {"budget-s", "N",
+                   "Wall seconds after which times are not repeated further. [default: 90, full: 1500]"},
+                  {"json", "", "Prints the study as JSON instead of the table.", true},
+                  {"quiet", "", "Shows errors alone, and the result.", true}}});
+    return options;
+}
+
+Results run_all(const Given& given, const verify::StudyOptions& options) {
+    const verify::Depth depth = depth_of(given);
+    const auto job = given.find("job");
+    const bool effects = given.is_on("effects");
+    Results results;
+    if (!effects || job || given.has("suite") || given.has("only"))
+        results.study = verify::run_study(
+            chosen(job ? verify::job_cases(*job, depth) : verify::suite_cases(depth, options.folder),
+                   given.all("only")),
+            options);
+    if (effects) results.effects = verify::study_effects(options);
+    return results;
+}
+
+void print_results(const Results& results, bool as_json) {
+    if (as_json) {
+        std::printf("%s", job::to_text(results.json()).c_str());
+        return;
+    }
+    if (!results.study.cases.empty()) std::printf("%s", verify::study_table(results.study).c_str());
+    std::printf("%s", verify::effects_table(results.effects).c_str());
 }
 
 }  // namespace
 
 ExitCode study_command(const Arguments& arguments) {
-    Options options(
-        "study", "[OPTIONS] TOPIC",
-        "Bakes what a topic needs, and writes a page and figures.json. Topics: shading, spheres and a plane "
-        "by "
-        "the exact integral beside the split sum with the baked products, with Frostbite's dominant "
-        "direction and without; takes a minute.");
-    options.add_positional({{"topic", "TOPIC", "shading."}});
-    options.add(
-        {"output",
-         {{"o,output", "DIR", "Folder for products, figures.json and index.html. [default: study]"}}});
-    options.add({"shading",
-                 {{"environment", "NAME", "Built-in environment: indoor or outdoor. [default: indoor]"},
-                  {"size", "N", "Pixels across a sphere. [integer 8 to 512; default: 48]"}}});
-    options.add({"running", {{"threads", "N", "Worker threads. [default: all processors]"}}});
-    const auto given = options.parse(arguments);
+    const auto given = study_command_options().parse(arguments);
     if (!given) return ExitCode::done;
-    const auto topic = given->find("topic");
-    if (topic.value_or("") != "shading")
-        throw Error(ExitCode::usage, "TOPIC",
-                    topic ? "found \"" + *topic + "\"; allowed: shading" : "missing; allowed: shading");
-    verify::ShadingStudy study{given->find("environment").value_or("indoor"), 48, threads_of(*given)};
-    if (const auto size = given->find("size")) study.size = integer_option("size", *size, 8, 512);
-    if (study.environment != "indoor" && study.environment != "outdoor")
-        throw Error(ExitCode::usage, "--environment",
-                    "found \"" + study.environment + "\"; allowed: indoor, outdoor");
-    return study_shading(given->find("output").value_or("study"), study);
+    if (given->is_on("shading")) return study_shading(*given);
+    const ScratchFolder scratch;
+    verify::PictureBook pictures(kMostPictureBytes);
+    verify::StudyOptions options;
+    options.folder = scratch.path();
+    options.threads = threads_of(*given);
+    options.limits = limits_of(*given, depth_of(*given));
+    options.cancel = &catch_interrupts();
+    options.inspect = [&pictures](auto&&... seen) { pictures.take(seen...); };
+    if (!given->is_on("quiet"))
+        options.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+    try {
+        const Results results = run_all(*given, options);
+        write_results(results, pictures, command_line(arguments), given->find("output").value_or("study"));
+        print_results(results, given->is_on("json"));
+    } catch (const Cancelled&) {
+        return ExitCode::interrupted;
+    }
+    return ExitCode::done;
 }
 
 }  // namespace pbrbake::cli

@@ -1,14 +1,17 @@
-// Two procedural environments in absolute luminance, so that everything can be tried without a file.
+// Procedural environments in absolute luminance, so that everything can be tried without a file.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
+#include <string_view>
 
 #include "bakers/probe/probe.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/numerics/elementary.hpp"
+#include "pbr/numerics/sequence.hpp"
 #include "pbr/numerics/sum.hpp"
 
 namespace pbrbake::probe {
@@ -112,23 +115,63 @@ glm::dvec3 room(const glm::dvec3& d) {
                  wall == 2 ? glm::dvec3(1, 1, 0.95) : glm::dvec3(0.8, 1, 0.9));
 }
 
+// --- for studies: what is simple to say and hard, or very easy, to filter
+// ----------------------------------------
+
+/// The same everywhere: whatever a method makes of it but this is its own.
+glm::dvec3 grey() { return glm::dvec3(1000); }
+
+/// Each texel's channels independent and even between 0 and 2,000: as much in high bands as in low ones.
+glm::dvec3 noise(int x, int y) {
+    const auto texel = static_cast<std::uint64_t>(y) * kWidth + static_cast<std::uint64_t>(x);
+    const auto channel = [&](std::uint64_t c) { return 2000 * pbr::random_unit(0x6e6f697365u, texel, c); };
+    return {channel(0), channel(1), channel(2)};
+}
+
+/// A night: ground and sky of .01 cd/m^2, and lamps of 1e6 cd/m^2, a texel each, even over the sphere.
+constexpr int kLamps = 40;
+constexpr double kDark = 0.01, kLamp = 1e6;
+
+void add_lamps(Level& level) {
+    constexpr std::uint64_t kStream = 0x6c616d70u;
+    for (std::uint64_t i = 0; i < kLamps; ++i) {
+        const double height =
+            1 - 2 * (static_cast<double>(i) + .5) / kLamps;  // even in y: even in solid angle
+        int y = 0;
+        while (y + 1 < kHeight && pbr::equirect_direction(.5, (y + 1.0) / kHeight).y > height) ++y;
+        const int x = static_cast<int>(pbr::random_unit(kStream, i) * kWidth);
+        const glm::dvec3 colour = light(kLamp, i % 2 ? glm::dvec3(1.4, 1, .55) : glm::dvec3(.85, 1, 1.2));
+        for (int c = 0; c < 3; ++c)
+            level.texels[(static_cast<std::size_t>(y) * kWidth + x) * 3 + c] = static_cast<float>(colour[c]);
+    }
+}
+
+glm::dvec3 radiance_of(const std::string& name, const glm::dvec3& d, int x, int y) {
+    if (name == "outdoor") return clear_sky(d);
+    if (name == "indoor") return room(d);
+    if (name == "noise") return noise(x, y);
+    return name == "contrast" ? light(kDark, {1, 1, 1}) : grey();
+}
+
 }  // namespace
 
 SourceImage builtin_environment(const std::string& name) {
-    if (name != "outdoor" && name != "indoor")
+    constexpr std::array<std::string_view, 5> kNames{"outdoor", "indoor", "contrast", "noise", "constant"};
+    if (std::ranges::find(kNames, name) == kNames.end())
         throw Error(ExitCode::unreadable_input, "builtin:" + name,
-                    "there is no such environment; allowed: builtin:outdoor, builtin:indoor");
-    const bool outdoor = name == "outdoor";
+                    "there is no such environment; allowed: builtin:outdoor, builtin:indoor, "
+                    "builtin:contrast, builtin:noise, builtin:constant");
     SourceImage source;
     source.image.channels = {"R", "G", "B"};
     source.image.levels.push_back({kWidth, kHeight, std::vector<float>(std::size_t{kWidth} * kHeight * 3)});
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const glm::dvec3 d = pbr::equirect_direction((x + 0.5) / kWidth, (y + 0.5) / kHeight);
-            const glm::dvec3 radiance = outdoor ? clear_sky(d) : room(d);
+            const glm::dvec3 radiance = radiance_of(name, d, x, y);
             for (int c = 0; c < 3; ++c) source.image.texel(0, 0, y, x)[c] = static_cast<float>(radiance[c]);
         }
-    if (outdoor) add_sun(source.image.levels[0]);
+    if (name == "outdoor") add_sun(source.image.levels[0]);
+    if (name == "contrast") add_lamps(source.image.levels[0]);
     source.colour_space = "lin_rec709";
     source.units = "cd/m^2";
     source.hash = "procedural-1";  // raised when the pictures change

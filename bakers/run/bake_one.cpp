@@ -31,6 +31,22 @@ bool is_main_document(const job::Bake& bake, const std::string& suffix) {
     return find_format(bake.format)->is_document() && suffix == bake.format;
 }
 
+PixelType pixel_of(const Product& product, const job::Bake& bake) {
+    return product.pixel.value_or(bake.pixel);
+}
+
+/// What a bake's own stage makes, its values as they will be stored.
+Product baked(const job::Bake& bake, const Inputs& inputs, Context& context) {
+    Product product = bake.baker->run(bake.json, inputs, context);
+    // A baker's own choice gives way to a pixel type that the job states, and to what its format holds.
+    const Format& format = *find_format(bake.format);
+    if (product.pixel &&
+        (bake.pixel_stated || std::ranges::find(format.pixels, *product.pixel) == format.pixels.end()))
+        product.pixel.reset();
+    product.scale = io::quantise(product.images, pixel_of(product, bake));
+    return product;
+}
+
 /// A bake on its way: what one stage leaves for the next.
 class BakeRun {
   public:
@@ -53,6 +69,11 @@ class BakeRun {
         }
         report_.peak_memory_bytes = peak_memory_bytes();
         return std::move(report_);
+    }
+
+    Inputs decoded() {
+        decode();
+        return std::move(inputs_);
     }
 
   private:
@@ -146,21 +167,15 @@ class BakeRun {
 
     void bake() {
         const auto context = this->context(Stage::bake);
-        product_ = bake_.baker->run(bake_.json, inputs_, *context);
+        product_ = baked(bake_, inputs_, *context);
         report_.bake_evaluations = context->counts();
         for (const std::string& warning : product_.warnings) report_.warnings.push_back(warning);
-        // A baker's own choice gives way to a pixel type that the job states, and to what its format holds.
-        const Format& format = *find_format(bake_.format);
-        if (product_.pixel &&
-            (bake_.pixel_stated || std::ranges::find(format.pixels, *product_.pixel) == format.pixels.end()))
-            product_.pixel.reset();
-        product_.scale = io::quantise(product_.images, pixel());
         if (product_.scale != 1)
             report_.warnings.push_back("values exceed what the pixel format holds; they are stored times " +
                                        number_text(product_.scale) + " (\"scale\" in the record)");
     }
 
-    PixelType pixel() const { return product_.pixel.value_or(bake_.pixel); }
+    PixelType pixel() const { return pixel_of(product_, bake_); }
 
     void certify() {
         const auto context = this->context(Stage::certify);
@@ -268,6 +283,17 @@ BakeReport plan_bake(const job::Job& job, const job::Bake& bake) {
 
 BakeReport run_bake(const job::Job& job, const job::Bake& bake, const Options& options) {
     return BakeRun(job, bake, options).run();
+}
+
+Inputs decoded_inputs(const job::Job& job, const job::Bake& bake, const Options& options) {
+    return BakeRun(job, bake, options).decoded();
+}
+
+Seconds time_bake_stage(const job::Bake& bake, const Inputs& inputs, const Options& options) {
+    Context context(options.threads, bake.accuracy, {}, options.cancel);
+    const Stopwatch watch;
+    const Product product = baked(bake, inputs, context);
+    return watch.elapsed();
 }
 
 }  // namespace pbrbake::run

@@ -11,4 +11,11 @@ BakeReport plan_bake(const job::Job& job, const job::Bake& bake);
 /// Runs it. Throws nothing: every failure is in the report.
 BakeReport run_bake(const job::Job& job, const job::Bake& bake, const Options& options);
 
+/// What a bake reads, decoded as run_bake decodes it. Throws Error, Cancelled.
+Inputs decoded_inputs(const job::Job& job, const job::Bake& bake, const Options& options);
+
+/// Time of the stage "bake" of run_bake alone, for who measures it again and again: nothing is certified or
+/// written. Throws Error, Cancelled.
+Seconds time_bake_stage(const job::Bake& bake, const Inputs& inputs, const Options& options);
+
 }  // namespace pbrbake::run

@@ -67,21 +67,6 @@ const Json* figure_at(const run::BakeReport& report, const std::string& metric, 
     return nullptr;
 }
 
-/// Root mean square difference of two probes' texels over the mean of the second: the certificate's metric,
-/// at every texel.
-double relative_rmse(const BakedImage& a, const BakedImage& b, int level) {
-    const auto& texels_a = a.image.levels[static_cast<std::size_t>(level)].texels;
-    const auto& texels_b = b.image.levels[static_cast<std::size_t>(level)].texels;
-    double squared = 0, sum = 0;
-    for (std::size_t i = 0; i < texels_a.size(); ++i) {
-        const double value = texels_b[i] / b.scale, difference = texels_a[i] / a.scale - value;
-        squared += difference * difference;
-        sum += value;
-    }
-    const double size = static_cast<double>(texels_a.size());
-    return sum > 0 ? std::sqrt(squared / size) / (sum / size) : 0;
-}
-
 /// One probe of the demo.
 struct Probe {
     const run::BakeReport* report;

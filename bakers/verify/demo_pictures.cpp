@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "bakers/io/io.hpp"
 #include "bakers/verify/page.hpp"
 
 namespace pbrbake::verify {
@@ -27,14 +26,6 @@ double mean_luminance(const BakedImage& probe, int level) {
     return sum / (static_cast<double>(texels.size()) / 3) / probe.scale;
 }
 
-/// False colours are display-encoded, and put() encodes: this undoes it.
-glm::dvec3 decoded(const glm::dvec3& srgb) {
-    glm::dvec3 linear;
-    for (int c = 0; c < 3; ++c)
-        linear[c] = srgb[c] <= 0.04045 ? srgb[c] / 12.92 : std::pow((srgb[c] + 0.055) / 1.055, 2.4);
-    return linear;
-}
-
 }  // namespace
 
 glm::dvec3 look_up(const BakedImage& table, double NoV, double perceptual_roughness) {
@@ -50,10 +41,6 @@ glm::dvec3 look_up(const BakedImage& table, double NoV, double perceptual_roughn
     const double tx = x - x0, ty = y - y0;
     return (1 - ty) * ((1 - tx) * at(y0, x0) + tx * at(y0, x1)) +
            ty * ((1 - tx) * at(y1, x0) + tx * at(y1, x1));
-}
-
-BakedImage read_baked(const run::BakeReport& bake) {
-    return {io::read_product(bake.writes.front()).image, bake.entry["scale"].get<double>()};
 }
 
 const std::vector<EnvironmentLook>& environment_looks() {
@@ -128,7 +115,8 @@ Picture difference_ball(const EnvironmentLook& look, const BakedImage& a, const 
                  decades = std::log(kMostDifferenceShown / kLeastDifferenceShown);
     return ball_picture(kBallSize, View(look.camera), [&](const glm::dvec3&, const glm::dvec3& reflected) {
         const double share = std::abs(luminance(of_a(reflected) - of_b(reflected))) / mean;
-        return decoded(false_colour(std::log(std::max(share / kLeastDifferenceShown, 1.0)) / decades));
+        return linear_of_display(
+            false_colour(std::log(std::max(share / kLeastDifferenceShown, 1.0)) / decades));
     });
 }
 
@@ -143,8 +131,8 @@ Picture channel_picture(const BakedImage& table, int channel, double& highest) {
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < level.width; ++x)
             put(picture, x, y,
-                decoded(false_colour(table.image.texel(0, 0, y, x)[channel] / table.scale /
-                                     std::max(highest, 1e-30))));
+                linear_of_display(false_colour(table.image.texel(0, 0, y, x)[channel] / table.scale /
+                                               std::max(highest, 1e-30))));
     return picture;
 }
 
@@ -154,7 +142,7 @@ Picture rgb_picture(const BakedImage& table) {
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < level.width; ++x) {
             const float* texel = table.image.texel(0, 0, y, x);
-            put(picture, x, y, decoded(glm::dvec3(texel[0], texel[1], texel[2]) / table.scale));
+            put(picture, x, y, linear_of_display(glm::dvec3(texel[0], texel[1], texel[2]) / table.scale));
         }
     return picture;
 }

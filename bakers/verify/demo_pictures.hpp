@@ -4,17 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "bakers/run/run.hpp"
+#include "bakers/verify/baked_image.hpp"
 #include "bakers/verify/picture.hpp"
 
 namespace pbrbake::verify {
-
-/// A product as its file holds it: stored = scale * value.
-struct BakedImage {
-    Image image;
-    double scale;
-};
-BakedImage read_baked(const run::BakeReport& bake);
 
 /// A table's first three channels at (NoV, perceptual roughness), bilinear, both ends clamped: a table of the
 /// default layout (sqrt(NoV) and perceptual roughness, the first and last texels at 0 and 1).

@@ -66,6 +66,13 @@ std::uint8_t srgb_byte(double linear) {
     return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
+glm::dvec3 linear_of_display(const glm::dvec3& encoded) {
+    glm::dvec3 linear;
+    for (int c = 0; c < 3; ++c)
+        linear[c] = encoded[c] <= 0.04045 ? encoded[c] / 12.92 : std::pow((encoded[c] + 0.055) / 1.055, 2.4);
+    return linear;
+}
+
 void put(Picture& picture, int x, int y, const glm::dvec3& linear) {
     for (int c = 0; c < 3; ++c) picture.pixel(x, y)[c] = srgb_byte(linear[c]);
 }

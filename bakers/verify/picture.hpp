@@ -37,6 +37,9 @@ double exposure_of_ev100(double ev100);
 /// before. NaN is 0.
 std::uint8_t srgb_byte(double linear);
 
+/// The inverse, a channel at a time, of values in [0, 1]: for what is display-encoded and goes through put().
+glm::dvec3 linear_of_display(const glm::dvec3& encoded);
+
 /// Writes a pixel from linear light.
 void put(Picture& picture, int x, int y, const glm::dvec3& linear);
 

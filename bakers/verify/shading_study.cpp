@@ -97,7 +97,7 @@ class ShadingPage {
                 body += scene_html(material, "a plane at grazing view",
                                    plane_scene(2 * study_.size, study_.size, -look_.camera), figures);
         }
-        return page("pbrbake study shading", body + reading());
+        return page("pbrbake study --shading", body + reading());
     }
 
   private:

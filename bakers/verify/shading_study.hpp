@@ -1,5 +1,5 @@
 #pragma once
-// What the split sum loses, in pictures and figures: `pbrbake study shading`.
+// What the split sum loses, in pictures and figures: `pbrbake study --shading`.
 
 #include <filesystem>
 #include <string>

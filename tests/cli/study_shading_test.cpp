@@ -10,7 +10,7 @@ namespace {
 TEST(StudyShading, WritesAPageAndFigures) {
     const TemporaryFolder folder;
     const Outcome outcome =
-        run_program({"study", "shading", "--size", "8", "-o", (folder / "study").string()});
+        run_program({"study", "--shading", "--size", "8", "-o", (folder / "study").string()});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, testing::EndsWith("study/index.html\n"));
     EXPECT_THAT(read_file(folder / "study/index.html"), testing::HasSubstr("Gold, a plane at grazing view"));
@@ -28,7 +28,7 @@ TEST(StudyShading, WritesAPageAndFigures) {
 TEST(StudyShading, KeepsAJobOfSomeoneElse) {
     const TemporaryFolder folder;
     folder.write("job.json", "{}");
-    const Outcome outcome = run_program({"study", "shading", "-o", folder.path().string()});
+    const Outcome outcome = run_program({"study", "--shading", "-o", folder.path().string()});
     EXPECT_EQ(outcome.code, 5);
     EXPECT_EQ(read_file(folder / "job.json"), "{}");
 }

@@ -1,0 +1,34 @@
+#pragma once
+// Products read back, and how far one is from another.
+
+#include <cstddef>
+
+#include "bakers/image.hpp"
+#include "bakers/run/run.hpp"
+
+namespace pbrbake::verify {
+
+/// A product's image as its file holds it: stored = scale * value.
+struct BakedImage {
+    Image image;
+    double scale = 1;
+};
+/// The first image of a bake that is done, decoded from its file.
+BakedImage read_baked(const run::BakeReport& bake);
+
+/// Stored value less the reference's, both divided by their scales; `index` is into Level::texels.
+double value_error(const BakedImage& product, const BakedImage& reference, int level, std::size_t index);
+
+/// Root mean square of value_error over a level, over the reference's mean there; absolute where that mean is
+/// not positive.
+double relative_rmse(const BakedImage& product, const BakedImage& reference, int level);
+
+/// Of all levels the largest.
+struct WorstLevel {
+    double relative_rmse = 0;
+    int level = 0;
+};
+/// The images have the same faces, levels and channels; throws Error(invalid_job) if they don't.
+WorstLevel worst_level(const BakedImage& product, const BakedImage& reference);
+
+}  // namespace pbrbake::verify
