@@ -1,5 +1,7 @@
 // pbrbake study --shading: what approximations of shading lose.
 
+#include "cli/study_shading.hpp"
+
 #include <cstdio>
 #include <filesystem>
 
@@ -7,8 +9,6 @@
 #include "bakers/job/json_text.hpp"
 #include "bakers/run/atomic_file.hpp"
 #include "bakers/verify/shading_study.hpp"
-#include "cli/study_shading.hpp"
-
 #include "cli/execute.hpp"
 #include "cli/interrupt.hpp"
 
