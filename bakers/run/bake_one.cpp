@@ -120,6 +120,7 @@ class BakeRun {
         return io::read_source({source.file,
                                 source.read.colour_space,
                                 job_.working_space,
+                                source.read.with_alpha,
                                 {job_.max_side, job_.max_decoded_bytes}});
     }
 
