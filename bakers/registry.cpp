@@ -7,6 +7,7 @@
 #include "bakers/ies/ies.hpp"
 #include "bakers/params.hpp"
 #include "bakers/probe/probe.hpp"
+#include "bakers/texture/texture.hpp"
 
 namespace pbrbake {
 namespace {
@@ -32,6 +33,7 @@ Baker make_baker(std::string_view kind, int algorithm_version,
             },
             {},
             {},
+            {},
             {}};
 }
 
@@ -48,7 +50,15 @@ std::span<const Baker> bakers() {
             make_baker("ies", ies::kAlgorithmVersion, ies::check, ies::reads, ies::bake, ies::certify);
         ies.follow = ies::follow;
         ies.documents = [](const Json& json) { return ies::documents(read_params<ies::IesParams>(json)); };
-        return std::array{std::move(dfg), std::move(probe), std::move(ies)};
+        Baker texture = make_baker("texture", texture::kAlgorithmVersion, texture::check, texture::reads,
+                                   texture::bake, texture::certify);
+        texture.images = [](const Json& json) {
+            return texture::images(read_params<texture::TextureParams>(json));
+        };
+        texture.documents = [](const Json& json) {
+            return texture::documents(read_params<texture::TextureParams>(json));
+        };
+        return std::array{std::move(dfg), std::move(probe), std::move(ies), std::move(texture)};
     }();
     return list;
 }

@@ -10,6 +10,7 @@
 #include "bakers/job/schema.hpp"
 #include "bakers/probe/params.hpp"
 #include "bakers/registry.hpp"
+#include "bakers/texture/params.hpp"
 
 namespace pbrbake {
 namespace {
@@ -68,6 +69,7 @@ TEST(JobSchema, NamesEnumerationsAsParamsDo) {
     expect_enums_agree<dfg::DfgParams>("dfg");
     expect_enums_agree<probe::ProbeParams>("probe");
     expect_enums_agree<ies::IesParams>("ies");
+    expect_enums_agree<texture::TextureParams>("texture");
 }
 
 TEST(JobSchema, ListsTheFormatsAndColourSpacesOfIo) {
