@@ -26,8 +26,8 @@ Materials materials_of(const TextureParams& params, const Layout& layout, const 
     return materials;
 }
 
-/// The largest dielectric f0 that matters, at least the usual one: what a code of 1 stands for. Texels that are
-/// nearly all metal don't show theirs.
+/// The largest dielectric f0 that matters, at least the usual one: what a code of 1 stands for. Texels that
+/// are nearly all metal don't show theirs.
 float specular_unit(const TextureParams& params, const Materials& materials) {
     auto largest = static_cast<float>(params.dielectric_f0);
     for (const auto& material : materials)
@@ -45,13 +45,14 @@ Image named_image(const PackedImage& packed) {
 }
 
 Image confidence_image(const Converted& set) {
-    Image image{"confidence", {"R"}, 1, {{set.level.width, set.level.height, set.confidence}}, Transfer::linear};
+    Image image{
+        "confidence", {"R"}, 1, {{set.level.width, set.level.height, set.confidence}}, Transfer::linear};
     return image;
 }
 
 /// Black to white over a colour difference of 0 to 10, before codes.
-Image difference_image(const Sources& sources, const Layout& layout, const Converted& set, const Materials& materials,
-                       Context& context) {
+Image difference_image(const Sources& sources, const Layout& layout, const Converted& set,
+                       const Materials& materials, Context& context) {
     constexpr float kFullScale = 10;
     const MapLevel& level = set.level;
     Level heat{level.width, level.height, std::vector<float>(level.texels())};
@@ -63,7 +64,8 @@ Image difference_image(const Sources& sources, const Layout& layout, const Conve
             const float p = level.perceptual_roughness[i];
             const Colour before = pbr_albedo({level.diffuse[i], level.f0[i]}, p, scattering).total();
             const Colour after =
-                pbr_albedo(pbr::reflected_from_metallic(materials[i], layout.coupling), p, scattering).total();
+                pbr_albedo(pbr::reflected_from_metallic(materials[i], layout.coupling), p, scattering)
+                    .total();
             heat.texels[i] = std::min(1.f, static_cast<float>(delta_e(before, after)) / kFullScale);
         }
     });
@@ -77,7 +79,8 @@ void dither(const TextureParams& params, std::vector<Image>& images) {
         for (Level& level : images[m].levels)
             for (std::size_t i = 0; i < level.texels.size(); ++i) {
                 const auto seed = static_cast<std::uint64_t>(params.seed);
-                const double noise = pbr::random_unit(seed + m, 2 * i) - pbr::random_unit(seed + m, 2 * i + 1);
+                const double noise =
+                    pbr::random_unit(seed + m, 2 * i) - pbr::random_unit(seed + m, 2 * i + 1);
                 float& value = level.texels[i];
                 // In sRGB's scale a code is narrower in the dark: half_step knows its width.
                 const float code = images[m].transfer == Transfer::srgb && i % images[m].channels.size() < 3
@@ -89,18 +92,22 @@ void dither(const TextureParams& params, std::vector<Image>& images) {
 
 void warn(const Sources& sources, const Findings& found, Product& product) {
     for (const std::string& warning : sources.warnings()) product.warnings.push_back(warning);
-    const auto percent = [](double share) { return std::to_string(static_cast<int>(share * 100 + .5)) + " %"; };
+    const auto percent = [](double share) {
+        return std::to_string(static_cast<int>(share * 100 + .5)) + " %";
+    };
     if (found.f0_clamped > 0)
-        product.warnings.push_back(percent(found.f0_clamped) +
-                                   " of texels had specular lobes that reflect more than a PBR lobe can; f0 is 1 there");
+        product.warnings.push_back(
+            percent(found.f0_clamped) +
+            " of texels had specular lobes that reflect more than a PBR lobe can; f0 is 1 there");
     if (found.over_unity > .01)
         product.warnings.push_back(percent(found.over_unity) + " of texels return more light than arrives");
     if (found.low_confidence > .5)
-        product.warnings.push_back("the data don't tell metal from dielectric in " + percent(found.low_confidence) +
-                                   " of texels; state surface, or calibrate");
+        product.warnings.push_back("the data don't tell metal from dielectric in " +
+                                   percent(found.low_confidence) + " of texels; state surface, or calibrate");
     if (found.calibration == "statistics")
-        product.warnings.push_back("specular was scaled so that its median dielectric reflects the usual f0; state "
-                                   "surface or calibrate none if it is f0 already");
+        product.warnings.push_back(
+            "specular was scaled so that its median dielectric reflects the usual f0; state "
+            "surface or calibrate none if it is f0 already");
 }
 
 }  // namespace
@@ -114,10 +121,13 @@ std::vector<Mistake> check(const TextureParams& params, const std::string& forma
         mistakes.push_back({"/levels", "found " + std::to_string(params.levels) + ", but " + format +
                                            " holds one level; allowed: 1, or format exr, ktx2, dds"});
     if (container && container->max_channels < 4)
-        mistakes.push_back({"/format", "found \"" + format + "\"; allowed for texture sets: exr, ktx2, dds, png"});
-    if (params.gloss_is == GlossIs::automatic && !params.gloss.empty() && params.model != Model::specular_gloss)
-        mistakes.push_back({"/gloss_is", "missing; an exponent map of a " + std::string(enum_name(params.model)) +
-                                             " lobe needs its scale: power or power_log2 with power_scale, or smoothness"});
+        mistakes.push_back(
+            {"/format", "found \"" + format + "\"; allowed for texture sets: exr, ktx2, dds, png"});
+    if (params.gloss_is == GlossIs::automatic && !params.gloss.empty() &&
+        params.model != Model::specular_gloss)
+        mistakes.push_back(
+            {"/gloss_is", "missing; an exponent map of a " + std::string(enum_name(params.model)) +
+                              " lobe needs its scale: power or power_log2 with power_scale, or smoothness"});
     return mistakes;
 }
 
@@ -156,7 +166,8 @@ Product bake(const TextureParams& params, const Inputs& inputs, Context& context
     for (const PackedImage& image : layout.images) product.images.push_back(named_image(image));
     const auto add_levels = [&](const MapLevel& level, const Materials& of) {
         std::vector<Level> packed = pack(params, layout, level, of, unit, context);
-        for (std::size_t i = 0; i < packed.size(); ++i) product.images[i].levels.push_back(std::move(packed[i]));
+        for (std::size_t i = 0; i < packed.size(); ++i)
+            product.images[i].levels.push_back(std::move(packed[i]));
     };
     add_levels(set.level, materials);
     std::vector<Image> extras;

@@ -8,24 +8,53 @@
 namespace pbrbake::texture {
 namespace {
 
-/// f0 of metals: Lagarde & de Rousiers 2014, table 5 and physicallybased.info; of dielectrics from their index.
+/// f0 of metals: Lagarde & de Rousiers 2014, table 5 and physicallybased.info; of dielectrics from their
+/// index.
 constexpr std::array<SurfaceWord, 44> kWords{{
-    {"concrete", false, Colour(.04f)}, {"plaster", false, Colour(.04f)},  {"asphalt", false, Colour(.04f)},
-    {"brick", false, Colour(.04f)},    {"bricks", false, Colour(.04f)},   {"wood", false, Colour(.04f)},
-    {"plank", false, Colour(.04f)},    {"planks", false, Colour(.04f)},   {"stone", false, Colour(.04f)},
-    {"rock", false, Colour(.04f)},     {"rocks", false, Colour(.04f)},    {"gravel", false, Colour(.04f)},
-    {"dirt", false, Colour(.04f)},     {"sand", false, Colour(.04f)},     {"grass", false, Colour(.04f)},
-    {"leaf", false, Colour(.04f)},     {"leaves", false, Colour(.04f)},   {"bark", false, Colour(.04f)},
-    {"cloth", false, Colour(.04f)},    {"fabric", false, Colour(.04f)},   {"leather", false, Colour(.04f)},
-    {"rubber", false, Colour(.04f)},   {"plastic", false, Colour(.046f)}, {"ceramic", false, Colour(.05f)},
-    {"tile", false, Colour(.045f)},    {"tiles", false, Colour(.045f)},   {"marble", false, Colour(.045f)},
-    {"glass", false, Colour(.043f)},   {"skin", false, Colour(.028f)},    {"snow", false, Colour(.018f)},
-    {"ice", false, Colour(.018f)},     {"steel", true, {.56f, .57f, .58f}}, {"iron", true, {.56f, .57f, .58f}},
-    {"metal", true, {.56f, .57f, .58f}}, {"grate", true, {.56f, .57f, .58f}}, {"chrome", true, {.55f, .556f, .554f}},
-    {"titanium", true, {.542f, .497f, .449f}}, {"zinc", true, {.664f, .824f, .85f}},
-    {"aluminium", true, {.913f, .921f, .925f}}, {"aluminum", true, {.913f, .921f, .925f}},
-    {"silver", true, {.972f, .96f, .915f}}, {"copper", true, {.955f, .638f, .538f}},
-    {"brass", true, {.887f, .789f, .434f}}, {"gold", true, {1.f, .766f, .336f}},
+    {"concrete", false, Colour(.04f)},
+    {"plaster", false, Colour(.04f)},
+    {"asphalt", false, Colour(.04f)},
+    {"brick", false, Colour(.04f)},
+    {"bricks", false, Colour(.04f)},
+    {"wood", false, Colour(.04f)},
+    {"plank", false, Colour(.04f)},
+    {"planks", false, Colour(.04f)},
+    {"stone", false, Colour(.04f)},
+    {"rock", false, Colour(.04f)},
+    {"rocks", false, Colour(.04f)},
+    {"gravel", false, Colour(.04f)},
+    {"dirt", false, Colour(.04f)},
+    {"sand", false, Colour(.04f)},
+    {"grass", false, Colour(.04f)},
+    {"leaf", false, Colour(.04f)},
+    {"leaves", false, Colour(.04f)},
+    {"bark", false, Colour(.04f)},
+    {"cloth", false, Colour(.04f)},
+    {"fabric", false, Colour(.04f)},
+    {"leather", false, Colour(.04f)},
+    {"rubber", false, Colour(.04f)},
+    {"plastic", false, Colour(.046f)},
+    {"ceramic", false, Colour(.05f)},
+    {"tile", false, Colour(.045f)},
+    {"tiles", false, Colour(.045f)},
+    {"marble", false, Colour(.045f)},
+    {"glass", false, Colour(.043f)},
+    {"skin", false, Colour(.028f)},
+    {"snow", false, Colour(.018f)},
+    {"ice", false, Colour(.018f)},
+    {"steel", true, {.56f, .57f, .58f}},
+    {"iron", true, {.56f, .57f, .58f}},
+    {"metal", true, {.56f, .57f, .58f}},
+    {"grate", true, {.56f, .57f, .58f}},
+    {"chrome", true, {.55f, .556f, .554f}},
+    {"titanium", true, {.542f, .497f, .449f}},
+    {"zinc", true, {.664f, .824f, .85f}},
+    {"aluminium", true, {.913f, .921f, .925f}},
+    {"aluminum", true, {.913f, .921f, .925f}},
+    {"silver", true, {.972f, .96f, .915f}},
+    {"copper", true, {.955f, .638f, .538f}},
+    {"brass", true, {.887f, .789f, .434f}},
+    {"gold", true, {1.f, .766f, .336f}},
 }};
 
 /// Sums in double: the order of texels is fixed, so is the result.
@@ -47,7 +76,8 @@ void make_metal(MapLevel& level, const Colour& reference) {
     const double mean = sum / static_cast<double>(level.texels());
     for (std::size_t i = 0; i < level.texels(); ++i) {
         const float relative =
-            mean > 0 ? static_cast<float>((pbr::mean_channel(level.diffuse[i]) + pbr::mean_channel(level.f0[i])) / mean)
+            mean > 0 ? static_cast<float>(
+                           (pbr::mean_channel(level.diffuse[i]) + pbr::mean_channel(level.f0[i])) / mean)
                      : 1.f;
         level.f0[i] = glm::min(reference * relative, Colour(1));
         level.diffuse[i] = Colour(0);
@@ -74,9 +104,11 @@ double dielectric_median(const MapLevel& level, float least_diffuse) {
 
 const SurfaceWord* surface_word(const std::string& path) {
     std::string word;
-    const std::size_t begin = path.find_last_of("/\\") == std::string::npos ? 0 : path.find_last_of("/\\") + 1;
+    const std::size_t begin =
+        path.find_last_of("/\\") == std::string::npos ? 0 : path.find_last_of("/\\") + 1;
     for (std::size_t i = begin; i <= path.size(); ++i) {
-        const auto letter = i < path.size() ? static_cast<unsigned char>(path[i]) : static_cast<unsigned char>('_');
+        const auto letter =
+            i < path.size() ? static_cast<unsigned char>(path[i]) : static_cast<unsigned char>('_');
         if (std::isalpha(letter)) {
             word += static_cast<char>(std::tolower(letter));
             continue;
@@ -93,7 +125,8 @@ void calibrate(const TextureParams& params, MapLevel& level, Findings& findings)
     const bool is_legacy = params.model != Model::specular_gloss;
     const bool wanted =
         params.calibrate == Calibrate::library || (params.calibrate == Calibrate::automatic && is_legacy);
-    if (params.surface == SurfaceIs::any || (params.surface == SurfaceIs::automatic && !wanted)) word = nullptr;
+    if (params.surface == SurfaceIs::any || (params.surface == SurfaceIs::automatic && !wanted))
+        word = nullptr;
     bool is_metal = params.surface == SurfaceIs::metal;
     const bool is_told = is_metal || params.surface == SurfaceIs::dielectric || word != nullptr;
     if (params.surface == SurfaceIs::automatic && word) is_metal = word->is_metal;
@@ -107,7 +140,8 @@ void calibrate(const TextureParams& params, MapLevel& level, Findings& findings)
         make_metal(level, word && word->is_metal ? word->f0 : kIron);
         findings.calibration = "metal";
     } else if (is_told) {
-        const double reference = word && !word->is_metal ? static_cast<double>(word->f0.x) : params.dielectric_f0;
+        const double reference =
+            word && !word->is_metal ? static_cast<double>(word->f0.x) : params.dielectric_f0;
         if (before > 0) scale_f0(level, reference / before);
         findings.calibration = "dielectric";
     } else {

@@ -20,8 +20,9 @@ const SurfaceWord* surface_word(const std::string& path);
 /// Brings diffuse and f0 of a set to scale, and says what was done.
 void calibrate(const TextureParams& params, MapLevel& level, Findings& findings);
 
-/// Which way green points: correlation of d(slope x)/dy with d(slope y)/dx over the map, as if y went up. Slopes
-/// of a height field are free of curl, so it is > 0 where green is up, < 0 where it is down; 0 of a flat map.
+/// Which way green points: correlation of d(slope x)/dy with d(slope y)/dx over the map, as if y went up.
+/// Slopes of a height field are free of curl, so it is > 0 where green is up, < 0 where it is down; 0 of a
+/// flat map.
 double green_correlation(const MapLevel& level);
 
 }  // namespace pbrbake::texture

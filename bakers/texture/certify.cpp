@@ -24,7 +24,8 @@ float largest_difference(const Colour& a, const Colour& b) { return pbr::max_cha
 
 }  // namespace
 
-Certificate certify(const TextureParams& params, const Inputs& inputs, const Product& product, Context& context) {
+Certificate certify(const TextureParams& params, const Inputs& inputs, const Product& product,
+                    Context& context) {
     const Sources sources(params, inputs);
     const Layout layout = layout_of(params, sources.has_opacity());
     const Json& properties = product.properties["texture"];
@@ -36,7 +37,8 @@ Certificate certify(const TextureParams& params, const Inputs& inputs, const Pro
 
     constexpr std::uint64_t kSamples = 65536;
     const std::uint64_t texels = set.level.texels();
-    const std::uint64_t stride = context.certify_fully() ? 1 : std::max<std::uint64_t>(1, texels / kSamples) | 1;
+    const std::uint64_t stride =
+        context.certify_fully() ? 1 : std::max<std::uint64_t>(1, texels / kSamples) | 1;
     Totals totals;
     for (std::uint64_t i = 0; i < texels; i += stride) {
         const auto x = static_cast<int>(i % set.level.width), y = static_cast<int>(i / set.level.width);
@@ -54,21 +56,23 @@ Certificate certify(const TextureParams& params, const Inputs& inputs, const Pro
         const double delta = delta_e(truth.total(), found.total());
         totals.delta += delta;
         totals.worst_delta = std::max(totals.worst_delta, delta);
-        totals.worst_diffuse =
-            std::max(totals.worst_diffuse, static_cast<double>(largest_difference(before.diffuse, after.diffuse)));
-        totals.worst_f0 = std::max(totals.worst_f0, static_cast<double>(largest_difference(before.f0, after.f0)));
+        totals.worst_diffuse = std::max(
+            totals.worst_diffuse, static_cast<double>(largest_difference(before.diffuse, after.diffuse)));
+        totals.worst_f0 =
+            std::max(totals.worst_f0, static_cast<double>(largest_difference(before.f0, after.f0)));
         ++totals.texels;
     }
     context.count("certify.texels", totals.texels);
 
     const Evidence evidence = stride == 1 ? Evidence::measured : Evidence::estimate;
-    const std::string by = std::string(stride == 1 ? "all texels" : "every " + std::to_string(stride) + "th texel") +
-                           " of the largest level, files" + (is_calibrated ? ", calibrated," : "") +
-                           " against stored codes";
+    const std::string by =
+        std::string(stride == 1 ? "all texels" : "every " + std::to_string(stride) + "th texel") +
+        " of the largest level, files" + (is_calibrated ? ", calibrated," : "") + " against stored codes";
     const auto count = static_cast<double>(totals.texels);
     Certificate certificate;
-    certificate.headline = figure("energy_error", totals.energy_before > 0 ? totals.energy_off / totals.energy_before : 0,
-                                  evidence, "mean absolute change of the albedo under an even sky, relative; " + by);
+    certificate.headline =
+        figure("energy_error", totals.energy_before > 0 ? totals.energy_off / totals.energy_before : 0,
+               evidence, "mean absolute change of the albedo under an even sky, relative; " + by);
     certificate.figures.push_back(*certificate.headline);
     certificate.figures.push_back(
         figure("delta_e_mean", totals.delta / count, evidence, "CIE 1976, of that albedo's colour; " + by));

@@ -17,7 +17,8 @@ struct Cover {
 };
 
 Cover cover(int index, int small, int large) {
-    const double begin = static_cast<double>(index) * large / small, end = static_cast<double>(index + 1) * large / small;
+    const double begin = static_cast<double>(index) * large / small,
+                 end = static_cast<double>(index + 1) * large / small;
     Cover result;
     result.first = static_cast<int>(begin);
     result.count = std::min(4, static_cast<int>(std::ceil(end - 1e-9)) - result.first);
@@ -76,8 +77,10 @@ MapLevel next_level(const MapLevel& level, Context& context) {
                 Sums sums;
                 for (int j = 0; j < rows.count; ++j)
                     for (int i = 0; i < columns.count; ++i)
-                        sums.add(level, static_cast<std::size_t>(rows.first + j) * level.width + columns.first + i,
-                                 rows.share[static_cast<std::size_t>(j)] * columns.share[static_cast<std::size_t>(i)]);
+                        sums.add(level,
+                                 static_cast<std::size_t>(rows.first + j) * level.width + columns.first + i,
+                                 rows.share[static_cast<std::size_t>(j)] *
+                                     columns.share[static_cast<std::size_t>(i)]);
                 sums.store(next, static_cast<std::size_t>(y) * next.width + x);
             }
         }

@@ -10,7 +10,8 @@ namespace pbrbake::texture {
 namespace {
 
 constexpr std::int64_t kRows = 16;
-constexpr float kLeastTolerance = 1e-6f;
+/// Of diffuse albedo, linear: a half interval is wider near white, where an 8-bit code isn't worth more.
+constexpr float kLeastTolerance = 1e-6f, kLargestTolerance = .5f / 255;
 
 /// What a texel alone tells; the sums need an order and are made afterwards.
 struct Read {
@@ -73,7 +74,8 @@ Converted convert(const Sources& sources, Context& context) {
     const auto share = 1 / static_cast<double>(level.texels());
     result.tolerance.resize(level.texels());
     for (std::size_t i = 0; i < level.texels(); ++i) {
-        result.tolerance[i] = glm::max(read.steps[i].diffuse, Colour(kLeastTolerance));
+        result.tolerance[i] =
+            glm::clamp(read.steps[i].diffuse, Colour(kLeastTolerance), Colour(kLargestTolerance));
         findings.f0_clamped += share * read.clamped[i];
         findings.over_unity += pbr::max_channel(level.diffuse[i] + level.f0[i]) > 1.001f ? share : 0;
         findings.low_confidence += result.confidence[i] < .5f ? share : 0;

@@ -12,7 +12,8 @@ namespace {
 /// CIE 15:2004, 8.2.1.1.
 double lab_curve(double t) {
     constexpr double kEdge = 6. / 29;
-    return t > kEdge * kEdge * kEdge ? pbr::exp_exact(pbr::log_exact(t) / 3) : t / (3 * kEdge * kEdge) + 4. / 29;
+    return t > kEdge * kEdge * kEdge ? pbr::exp_exact(pbr::log_exact(t) / 3)
+                                     : t / (3 * kEdge * kEdge) + 4. / 29;
 }
 
 std::array<double, 3> lab(const Colour& colour) {
@@ -26,7 +27,8 @@ std::array<double, 3> lab(const Colour& colour) {
 
 }  // namespace
 
-Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness, pbr::Scattering scattering) {
+Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness,
+                  pbr::Scattering scattering) {
     const double grey = static_cast<double>(pbr::mean_channel(reflected.f0));
     const double mean = pbr::mean_specular_albedo(
         grey, pbr::mean_albedo_ggx(static_cast<double>(perceptual_roughness)), scattering);
@@ -36,7 +38,8 @@ Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_rough
 
 double delta_e(const Colour& a, const Colour& b) {
     const std::array<double, 3> p = lab(a), q = lab(b);
-    return std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2]));
+    return std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
+                     (p[2] - q[2]) * (p[2] - q[2]));
 }
 
 }  // namespace pbrbake::texture

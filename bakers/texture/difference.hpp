@@ -12,7 +12,8 @@ struct Albedo {
 };
 
 /// Of a GGX lobe: its mean albedo per channel, f90 by Frostbite's rule on the mean channel.
-Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness, pbr::Scattering scattering);
+Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness,
+                  pbr::Scattering scattering);
 
 /// CIE 1976 colour difference of two linear Rec. 709 colours under D65, 0 to about 100; 1 is just seen.
 double delta_e(const Colour& a, const Colour& b);

@@ -15,7 +15,8 @@ using Colour = pbr::Vec3<float>;
 /// One texel as its legacy model has it.
 struct LegacyTexel {
     pbr::Reflected<float> reflected;  ///< diffuse albedo, and f0 that keeps the lobe's energy
-    Colour specular_albedo;           ///< of the legacy lobe, the cosine-weighted mean over views; not of specular_gloss
+    Colour
+        specular_albedo;  ///< of the legacy lobe, the cosine-weighted mean over views; not of specular_gloss
     float perceptual_roughness = 0;
     bool f0_clamped = false;  ///< the PBR lobe can't reflect that much
     pbr::Quantisation<float> quantisation;
@@ -26,8 +27,8 @@ struct MapLevel {
     int width = 0, height = 0;
     std::vector<Colour> diffuse, f0;
     std::vector<float> metallic, perceptual_roughness;
-    std::vector<Colour> normal;              ///< y up; empty without a normal map
-    std::vector<float> occlusion, opacity;   ///< empty without a map
+    std::vector<Colour> normal;             ///< y up; empty without a normal map
+    std::vector<float> occlusion, opacity;  ///< empty without a map
     std::size_t texels() const { return static_cast<std::size_t>(width) * height; }
 };
 
@@ -39,7 +40,8 @@ struct Findings {
     std::string alpha = "nothing";
     bool green_down = false;
     double green_correlation = 0;  ///< > 0: y up; in [-1, 1]
-    double f0_clamped = 0, over_unity = 0, low_confidence = 0, metallic = 0, confidence = 0;  ///< shares and means
+    double f0_clamped = 0, over_unity = 0, low_confidence = 0, metallic = 0,
+           confidence = 0;  ///< shares and means
 };
 
 /// Reads texels of a set at any resolution: maps of other sizes are interpolated bilinearly.

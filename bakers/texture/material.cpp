@@ -5,10 +5,25 @@
 namespace pbrbake::texture {
 namespace {
 
-constexpr std::array<std::string_view, 19> kHeldNames{
-    "0",         "1",           "base_color.r", "base_color.g", "base_color.b", "opacity",       "metallic",
-    "perceptual_roughness",     "smoothness",   "reflectance",  "specular",     "occlusion",     "normal.x",
-    "normal.y",  "-normal.y",   "normal.z",     "dielectric_f0.r", "dielectric_f0.g", "dielectric_f0.b"};
+constexpr std::array<std::string_view, 19> kHeldNames{"0",
+                                                      "1",
+                                                      "base_color.r",
+                                                      "base_color.g",
+                                                      "base_color.b",
+                                                      "opacity",
+                                                      "metallic",
+                                                      "perceptual_roughness",
+                                                      "smoothness",
+                                                      "reflectance",
+                                                      "specular",
+                                                      "occlusion",
+                                                      "normal.x",
+                                                      "normal.y",
+                                                      "-normal.y",
+                                                      "normal.z",
+                                                      "dielectric_f0.r",
+                                                      "dielectric_f0.g",
+                                                      "dielectric_f0.b"};
 
 Json channels_json(const Layout& layout) {
     Json images = Json::object();
@@ -20,7 +35,8 @@ Json channels_json(const Layout& layout) {
     return images;
 }
 
-/// glTF 2.0, "Material"; KHR_materials_specular, whose f0 is (ior's .04) specularColorFactor specularColorTexture.
+/// glTF 2.0, "Material"; KHR_materials_specular, whose f0 is (ior's .04) specularColorFactor
+/// specularColorTexture.
 Json gltf_material(const Layout& layout, float specular_unit) {
     Json material, images = Json::array();
     const auto texture = [&](const char* name) {

@@ -10,10 +10,11 @@ namespace {
 constexpr std::int64_t kRows = 16;
 constexpr float kSure = .95f;  ///< texels this sure keep their own estimate
 
-/// Weighted mean of the sure neighbours that look alike, 5 x 5: the texel's doubt is filled from them. A joint
-/// bilateral filter (Petschnigg et al. 2004) with confidence as a weight; rational instead of Gaussian.
-float neighbours_metallic(const TextureParams& params, const MapLevel& level, const std::vector<float>& metallic,
-                          const std::vector<float>& confidence, int x, int y) {
+/// Weighted mean of the sure neighbours that look alike, 5 x 5: the texel's doubt is filled from them. A
+/// joint bilateral filter (Petschnigg et al. 2004) with confidence as a weight; rational instead of Gaussian.
+float neighbours_metallic(const TextureParams& params, const MapLevel& level,
+                          const std::vector<float>& metallic, const std::vector<float>& confidence, int x,
+                          int y) {
     constexpr int kReach = 2;
     constexpr float kAlike = .05f;  // of diffuse and f0, the distance at which likeness is half
     const auto place = [&](int at, int size) {
@@ -23,8 +24,8 @@ float neighbours_metallic(const TextureParams& params, const MapLevel& level, co
     float sum = metallic[centre] * 1e-3f, weights = 1e-3f;
     for (int dy = -kReach; dy <= kReach; ++dy)
         for (int dx = -kReach; dx <= kReach; ++dx) {
-            const std::size_t i =
-                static_cast<std::size_t>(place(y + dy, level.height)) * level.width + place(x + dx, level.width);
+            const std::size_t i = static_cast<std::size_t>(place(y + dy, level.height)) * level.width +
+                                  place(x + dx, level.width);
             if (i == centre || confidence[i] <= 0) continue;
             const Colour d = level.diffuse[i] - level.diffuse[centre], s = level.f0[i] - level.f0[centre];
             const float far = glm::dot(d, d) + glm::dot(s, s);
@@ -52,7 +53,8 @@ void regularise(const TextureParams& params, const std::vector<float>& confidenc
 
 }  // namespace
 
-std::vector<float> estimate_metal(const TextureParams& params, const std::vector<pbr::Quantisation<float>>& steps,
+std::vector<float> estimate_metal(const TextureParams& params,
+                                  const std::vector<pbr::Quantisation<float>>& steps,
                                   pbr::DiffuseCoupling coupling, const Findings& findings, MapLevel& level,
                                   Context& context) {
     std::vector<float> confidence(level.texels());
@@ -73,7 +75,8 @@ std::vector<float> estimate_metal(const TextureParams& params, const std::vector
         for (std::size_t i = static_cast<std::size_t>(begin) * level.width; i < last; ++i) {
             pbr::Quantisation<float> step = steps[i];
             step.f0 *= scale;
-            const auto found = pbr::estimate_metallic<float>({level.diffuse[i], level.f0[i]}, prior, step, coupling);
+            const auto found =
+                pbr::estimate_metallic<float>({level.diffuse[i], level.f0[i]}, prior, step, coupling);
             level.metallic[i] = found.metallic;
             confidence[i] = found.confidence * trust;
         }

@@ -5,9 +5,10 @@
 
 namespace pbrbake::texture {
 
-/// Fills level.metallic; returns the confidence of each texel. `quantisation` is a half interval a texel, on f0 as
-/// calibrated.
-std::vector<float> estimate_metal(const TextureParams& params, const std::vector<pbr::Quantisation<float>>& steps,
+/// Fills level.metallic; returns the confidence of each texel. `quantisation` is a half interval a texel, on
+/// f0 as calibrated.
+std::vector<float> estimate_metal(const TextureParams& params,
+                                  const std::vector<pbr::Quantisation<float>>& steps,
                                   pbr::DiffuseCoupling coupling, const Findings& findings, MapLevel& level,
                                   Context& context);
 

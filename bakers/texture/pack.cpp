@@ -54,7 +54,9 @@ float encoded(Held held, const MapLevel& level, const pbr::MetallicMaterial<floa
         case dielectric_r:
         case dielectric_g:
         case dielectric_b:
-            return material.dielectric_f0[static_cast<int>(held) - static_cast<int>(dielectric_r)] / specular_unit;
+            return std::min(1.f,
+                            material.dielectric_f0[static_cast<int>(held) - static_cast<int>(dielectric_r)] /
+                                specular_unit);
     }
     return 0;
 }
@@ -132,8 +134,8 @@ Layout layout_of(const TextureParams& params, bool has_opacity) {
     return layout;
 }
 
-pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout, const MapLevel& level,
-                                         std::size_t texel, const Colour& tolerance) {
+pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,
+                                         const MapLevel& level, std::size_t texel, const Colour& tolerance) {
     const pbr::Reflected<float> reflected{level.diffuse[texel], level.f0[texel]};
     const auto f = static_cast<float>(params.dielectric_f0);
     return layout.has_residual
@@ -153,15 +155,16 @@ std::vector<Level> pack(const TextureParams&, const Layout& layout, const MapLev
             const std::size_t last = static_cast<std::size_t>(end) * level.width;
             for (std::size_t i = static_cast<std::size_t>(begin) * level.width; i < last; ++i)
                 for (std::size_t c = 0; c < channels; ++c)
-                    packed.texels[i * channels + c] = encoded(image.channels[c], level, materials[i], i, specular_unit);
+                    packed.texels[i * channels + c] =
+                        encoded(image.channels[c], level, materials[i], i, specular_unit);
         });
         levels.push_back(std::move(packed));
     }
     return levels;
 }
 
-Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x, int y,
-                float specular_unit, double scale) {
+Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x,
+                int y, float specular_unit, double scale) {
     Unpacked result{{Colour(0), 0, Colour(static_cast<float>(params.dielectric_f0))}, .5f};
     for (std::size_t i = 0; i < layout.images.size(); ++i) {
         const float* texel = images[i].texel(0, 0, y, x);

@@ -46,8 +46,8 @@ struct Layout {
 Layout layout_of(const TextureParams& params, bool has_opacity);
 
 /// The material that a texel of a level becomes in the layout.
-pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout, const MapLevel& level,
-                                         std::size_t texel, const Colour& tolerance);
+pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,
+                                         const MapLevel& level, std::size_t texel, const Colour& tolerance);
 
 /// A level of every image of the layout. `specular_unit` divides dielectric_f0.
 std::vector<Level> pack(const TextureParams& params, const Layout& layout, const MapLevel& level,
@@ -59,7 +59,7 @@ struct Unpacked {
     pbr::MetallicMaterial<float> material;
     float perceptual_roughness;
 };
-Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x, int y,
-                float specular_unit, double scale);
+Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x,
+                int y, float specular_unit, double scale);
 
 }  // namespace pbrbake::texture

@@ -137,7 +137,8 @@ struct EnumNames<texture::Calibrate> {
 };
 template <>
 struct EnumNames<texture::Packing> {
-    static constexpr std::array<std::string_view, 5> names{"gltf", "unity", "unreal", "frostbite", "separate"};
+    static constexpr std::array<std::string_view, 5> names{"gltf", "unity", "unreal", "frostbite",
+                                                           "separate"};
 };
 template <>
 struct EnumNames<texture::Wrap> {

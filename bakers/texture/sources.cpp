@@ -20,7 +20,8 @@ const std::array<float, 257>& srgb_slopes() {
         for (std::size_t i = 0; i < slopes.size(); ++i) {
             const double root = static_cast<double>(i) / 256, linear = root * root;
             slopes[i] = static_cast<float>(
-                linear <= .0031308 ? 1 / 12.92 : 2.4 / 1.055 * pbr::exp_exact(1.4 / 2.4 * pbr::log_exact(linear)));
+                linear <= .0031308 ? 1 / 12.92
+                                   : 2.4 / 1.055 * pbr::exp_exact(1.4 / 2.4 * pbr::log_exact(linear)));
         }
         return slopes;
     }();
@@ -53,7 +54,8 @@ float half_step(float linear, int bits, bool is_srgb) {
 Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(params), inputs_(inputs) {
     for (const auto& [field, source] : inputs) {
         if (source.image.faces != 1)
-            throw Error(ExitCode::unreadable_input, "", field + ": is a cube map; a texture set is of flat pictures");
+            throw Error(ExitCode::unreadable_input, "",
+                        field + ": is a cube map; a texture set is of flat pictures");
         width_ = std::max(width_, source.image.levels.front().width);
         height_ = std::max(height_, source.image.levels.front().height);
     }
@@ -63,14 +65,16 @@ Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(pa
     occlusion_ = map_of("occlusion", 0);
     choose_gloss();
     choose_opacity();
-    const bool coupled = params.diffuse_coupling == Coupling::fresnel ||
-                         (params.diffuse_coupling == Coupling::automatic && params.model == Model::specular_gloss);
+    const bool coupled =
+        params.diffuse_coupling == Coupling::fresnel ||
+        (params.diffuse_coupling == Coupling::automatic && params.model == Model::specular_gloss);
     coupling_ = coupled ? pbr::DiffuseCoupling::fresnel : pbr::DiffuseCoupling::none;
     for (const auto& [field, source] : inputs)
         if (source.image.levels.front().width != width_ || source.image.levels.front().height != height_)
             warnings_.push_back(field + ": is " + std::to_string(source.image.levels.front().width) + " x " +
-                                std::to_string(source.image.levels.front().height) + ", interpolated to the set's " +
-                                std::to_string(width_) + " x " + std::to_string(height_));
+                                std::to_string(source.image.levels.front().height) +
+                                ", interpolated to the set's " + std::to_string(width_) + " x " +
+                                std::to_string(height_));
 }
 
 /// No map where the set has no such file, or that no such channel.
@@ -78,7 +82,8 @@ Sources::Map Sources::map_of(const std::string& field, int channel) const {
     const auto found = inputs_.find(field);
     if (found == inputs_.end() || found->second.image.channel_count() <= channel) return {};
     const SourceImage& source = found->second;
-    return {&source.image, channel, source.bits, channel < 3 && source.colour_space.find("srgb") != std::string::npos};
+    return {&source.image, channel, source.bits,
+            channel < 3 && source.colour_space.find("srgb") != std::string::npos};
 }
 
 void Sources::choose_gloss() {
@@ -141,8 +146,8 @@ void Sources::fetch(const Map& map, int x, int y, float* values, int count) cons
 float Sources::exponent(float gloss) const {
     if (params_.gloss_is == GlossIs::power) return gloss * static_cast<float>(params_.power_scale);
     if (params_.gloss_is == GlossIs::power_log2)
-        return static_cast<float>(
-            pbr::exp_exact(std::numbers::ln2 * std::clamp(static_cast<double>(gloss) * params_.power_scale, -30., 30.)));
+        return static_cast<float>(pbr::exp_exact(
+            std::numbers::ln2 * std::clamp(static_cast<double>(gloss) * params_.power_scale, -30., 30.)));
     return -1;
 }
 
@@ -161,7 +166,7 @@ float Sources::perceptual_roughness(int x, int y, float& n) const {
     if (n >= 0) return of_exponent(n);
     const float value = std::clamp(gloss, 0.f, 1.f);
     const float p = params_.gloss_is == GlossIs::perceptual_roughness ? value
-                    : params_.gloss_is == GlossIs::alpha              ? pbr::perceptual_roughness_from_alpha(value)
+                    : params_.gloss_is == GlossIs::alpha ? pbr::perceptual_roughness_from_alpha(value)
                                                          : pbr::perceptual_roughness_from_smoothness(value);
     n = pbr::blinn_phong_from_alpha(pbr::alpha_from_perceptual_roughness(p), fit_of(params_.fit)) /
         (is_phong ? 4.f : 1.f);
@@ -183,7 +188,8 @@ LegacyTexel Sources::texel(int x, int y) const {
     };
     const Colour diffuse = colour(diffuse_, params_.diffuse_factor, texel.quantisation.diffuse);
     Colour specular = colour(specular_, params_.specular_factor, texel.quantisation.f0);
-    if (!specular_.image && specular == Colour(1)) specular = Colour(static_cast<float>(params_.dielectric_f0));
+    if (!specular_.image && specular == Colour(1))
+        specular = Colour(static_cast<float>(params_.dielectric_f0));
     float n = 0;
     texel.perceptual_roughness = perceptual_roughness(x, y, n);
     if (params_.model == Model::specular_gloss || !specular_.image) {
@@ -198,7 +204,8 @@ LegacyTexel Sources::texel(int x, int y) const {
     const auto scattering = params_.multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
     const float grey = pbr::mean_channel(texel.specular_albedo);
     const pbr::SolvedF0 solved = pbr::f0_from_mean_albedo(
-        static_cast<double>(grey), pbr::mean_albedo_ggx(static_cast<double>(texel.perceptual_roughness)), scattering);
+        static_cast<double>(grey), pbr::mean_albedo_ggx(static_cast<double>(texel.perceptual_roughness)),
+        scattering);
     const float scale = grey > 0 ? static_cast<float>(solved.f0) / grey : 0;
     texel.reflected = {diffuse, glm::min(texel.specular_albedo * scale, Colour(1))};
     texel.quantisation.f0 *= mean * scale;

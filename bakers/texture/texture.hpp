@@ -14,6 +14,7 @@ std::vector<std::string> images(const TextureParams& params);
 /// Suffixes of the documents that are written.
 std::vector<std::string> documents(const TextureParams& params);
 Product bake(const TextureParams& params, const Inputs& inputs, Context& context);
-Certificate certify(const TextureParams& params, const Inputs& inputs, const Product& product, Context& context);
+Certificate certify(const TextureParams& params, const Inputs& inputs, const Product& product,
+                    Context& context);
 
 }  // namespace pbrbake::texture
