@@ -185,7 +185,7 @@ Product bake(const TextureParams& params, const Inputs& inputs, Context& context
     for (Image& image : extras) product.images.push_back(std::move(image));
     if (params.dither) dither(params, product.images);
     product.pixel = PixelType::unorm8;
-    product.properties["texture"] = properties_json(params, layout, set.findings, sources, unit);
+    product.properties["set"] = properties_json(params, layout, set.findings, sources, unit);
     product.documents.push_back({"material.json", material_json(params, layout, unit), ""});
     warn(sources, set.findings, product);
     return product;

@@ -28,7 +28,7 @@ Certificate certify(const TextureParams& params, const Inputs& inputs, const Pro
                     Context& context) {
     const Sources sources(params, inputs);
     const Layout layout = layout_of(params, sources.has_opacity());
-    const Json& properties = product.properties["texture"];
+    const Json& properties = product.properties["set"];
     const float unit = layout.has_residual ? properties["dielectric_f0_unit"].get<float>() : 1;
     const auto scattering = params.multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
     // Calibration looks at whole maps, so the set is converted again; sampling spares the comparison alone.

@@ -10,6 +10,7 @@ namespace pbrbake::texture {
 namespace {
 
 constexpr std::int64_t kRows = 16;
+constexpr float kAllLight = 1.001f;  ///< a code's rounding is no sin
 /// Of diffuse albedo, linear: a half interval is wider near white, where an 8-bit code isn't worth more.
 constexpr float kLeastTolerance = 1e-6f, kLargestTolerance = .5f / 255;
 
@@ -71,17 +72,19 @@ Converted convert(const Sources& sources, Context& context) {
     calibrate(params, level, findings);
     result.confidence = estimate_metal(params, read.steps, sources.coupling(), findings, level, context);
 
-    const auto share = 1 / static_cast<double>(level.texels());
     result.tolerance.resize(level.texels());
     for (std::size_t i = 0; i < level.texels(); ++i) {
         result.tolerance[i] =
             glm::clamp(read.steps[i].diffuse, Colour(kLeastTolerance), Colour(kLargestTolerance));
-        findings.f0_clamped += share * read.clamped[i];
-        findings.over_unity += pbr::max_channel(level.diffuse[i] + level.f0[i]) > 1.001f ? share : 0;
-        findings.low_confidence += result.confidence[i] < .5f ? share : 0;
-        findings.metallic += share * static_cast<double>(level.metallic[i]);
-        findings.confidence += share * static_cast<double>(result.confidence[i]);
+        findings.f0_clamped += read.clamped[i];
+        findings.over_unity += pbr::max_channel(level.diffuse[i] + level.f0[i]) > kAllLight ? 1 : 0;
+        findings.low_confidence += result.confidence[i] < .5f ? 1 : 0;
+        findings.metallic += static_cast<double>(level.metallic[i]);
+        findings.confidence += static_cast<double>(result.confidence[i]);
     }
+    for (double* sum : {&findings.f0_clamped, &findings.over_unity, &findings.low_confidence,
+                        &findings.metallic, &findings.confidence})
+        *sum /= static_cast<double>(level.texels());
     findings.alpha = sources.has_opacity() && params.opacity.empty() ? "opacity" : "nothing";
     return result;
 }

@@ -5,7 +5,7 @@
 
 namespace pbrbake::texture {
 
-/// "texture" of the record: what was found out, and how to read the images.
+/// "set" of the record: what was found out, and how to read the images.
 Json properties_json(const TextureParams& params, const Layout& layout, const Findings& findings,
                      const Sources& sources, float specular_unit);
 

@@ -1,6 +1,7 @@
 #include "bakers/texture/metal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -18,21 +19,27 @@ float neighbours_metallic(const TextureParams& params, const MapLevel& level,
     constexpr int kReach = 2;
     constexpr float kAlike = .05f;  // of diffuse and f0, the distance at which likeness is half
     const auto place = [&](int at, int size) {
+        if (at >= 0 && at < size) return at;
         return params.wrap == Wrap::repeat ? (at % size + size) % size : std::clamp(at, 0, size - 1);
     };
+    std::array<int, 2 * kReach + 1> columns{};
+    for (int dx = -kReach; dx <= kReach; ++dx)
+        columns[static_cast<std::size_t>(dx + kReach)] = place(x + dx, level.width);
     const std::size_t centre = static_cast<std::size_t>(y) * level.width + x;
+    const Colour diffuse = level.diffuse[centre], f0 = level.f0[centre];
     float sum = metallic[centre] * 1e-3f, weights = 1e-3f;
-    for (int dy = -kReach; dy <= kReach; ++dy)
-        for (int dx = -kReach; dx <= kReach; ++dx) {
-            const std::size_t i = static_cast<std::size_t>(place(y + dy, level.height)) * level.width +
-                                  place(x + dx, level.width);
-            if (i == centre || confidence[i] <= 0) continue;
-            const Colour d = level.diffuse[i] - level.diffuse[centre], s = level.f0[i] - level.f0[centre];
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+        const std::size_t row = static_cast<std::size_t>(place(y + dy, level.height)) * level.width;
+        for (const int column : columns) {
+            const std::size_t i = row + column;
+            if (confidence[i] <= 0 || i == centre) continue;
+            const Colour d = level.diffuse[i] - diffuse, s = level.f0[i] - f0;
             const float far = glm::dot(d, d) + glm::dot(s, s);
             const float weight = confidence[i] / (1 + far / (kAlike * kAlike));
             sum += weight * metallic[i];
             weights += weight;
         }
+    }
     return sum / weights;
 }
 

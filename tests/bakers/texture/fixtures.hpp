@@ -57,7 +57,7 @@ inline SourceImage source(int width, int height, int channels, int bits,
 struct Baked {
     Product product;
     Certificate certificate;
-    const Json& texture() const { return product.properties["texture"]; }
+    const Json& set() const { return product.properties["set"]; }
     const Image& image(const std::string& name) const {
         for (const Image& image : product.images)
             if (image.name == name) return image;

@@ -159,7 +159,7 @@ TEST(Texture, TakesUnequalOddAndSingleTexelMaps) {
     inputs["normal"] = source(14, 3, 3, 0, [](int, int) { return Rgba{.5f, .5f, 1, 1}; });
     inputs["occlusion"] = source(2, 2, 3, 0, [](int x, int) { return Rgba{static_cast<float>(x), 0, 0, 1}; });
     const Baked baked = bake_set(params, inputs, PixelType::unorm8);
-    EXPECT_EQ(baked.texture()["size"], Json({14, 5}));
+    EXPECT_EQ(baked.set()["size"], Json({14, 5}));
     EXPECT_EQ(baked.product.images[0].levels.size(), 4u);
     EXPECT_EQ(baked.product.images[0].levels.back().width, 1);
     for (const Image& image : baked.product.images)
@@ -210,8 +210,8 @@ TEST(Texture, FindsOutWhichWayGreenPoints) {
                         static_cast<float>(.5 + .5 / l), 1};
         });
         const Baked baked = bake_set(params, inputs, PixelType::unorm8);
-        EXPECT_EQ(baked.texture()["normal_green"], is_down ? "down" : "up");
-        EXPECT_GT(std::abs(baked.texture()["green_correlation"].get<double>()), .9);
+        EXPECT_EQ(baked.set()["normal_green"], is_down ? "down" : "up");
+        EXPECT_GT(std::abs(baked.set()["green_correlation"].get<double>()), .9);
     }
 }
 
@@ -223,7 +223,7 @@ TEST(Texture, AlphaIsGlossOpacityOrNothing) {
         return Rgba{.5f, .5f, .5f, static_cast<float>(x) / 15};
     });
     const Baked baked = bake_set(params, inputs, PixelType::float32);
-    EXPECT_EQ(baked.texture()["diffuse_alpha"], "opacity");
+    EXPECT_EQ(baked.set()["diffuse_alpha"], "opacity");
     EXPECT_EQ(baked.product.images[0].channel_count(), 4);
     EXPECT_NEAR(baked.product.images[0].texel(0, 0, 0, 15)[3], 1, 1e-6);
     EXPECT_NEAR(baked.image("orm").texel(0, 0, 0, 15)[1], 0, 1e-3);  // gloss 1 in the alpha of specular
@@ -277,7 +277,7 @@ TEST(Texture, ConcreteIsNoMetalAndSteelIsHoweverTheirSpecularWasPainted) {
             return Rgba{.3f, .3f + static_cast<float>(y) * .01f, .3f, 1};
         });
         const Baked baked = bake_set(params, inputs, PixelType::unorm8);
-        EXPECT_EQ(baked.texture()["mean_metallic"], metallic) << file;
+        EXPECT_EQ(baked.set()["mean_metallic"], metallic) << file;
     }
 }
 
