@@ -136,28 +136,6 @@ T metallic_root(T diffuse, T f0, T dielectric_f0) {
 /// below water's f0, which no surface has. Reflectances in [0, 1]; NaN channels count as 0.
 template <class T>
 MetallicEstimate<T> estimate_metallic(const Reflected<T>& reflected, const MetallicPrior<T>& prior,
-                                      const Quantisation<T>& quantisation, DiffuseCoupling coupling);
-
-/// Metallic material of a given metallic that reflects `reflected`. Its diffuse light is brought towards that
-/// of the base colour which explains f0 with the given dielectric_f0, but by no more than
-/// `diffuse_tolerance`; the material's dielectric_f0 is what of f0 the base colour then leaves. So f0 is
-/// exact and diffuse within the tolerance where such a material exists with members in [0, 1]; else f0 comes
-/// first. metallic in [0, 1]; 1 has base_color = f0 and the given dielectric_f0. Absolute error of both below
-/// 32 ulp of 1, besides the tolerance, where one exists. Continuous in all arguments.
-template <class T>
-MetallicMaterial<T> material_with_residual(const Reflected<T>& reflected, T metallic, T dielectric_f0,
-                                           const Vec3<T>& diffuse_tolerance, DiffuseCoupling coupling);
-
-/// The same for targets that hold a grey dielectric_f0 up to `largest_f0`, 0 for none but the prior's own:
-/// base colour by least squares of diffuse and f0, every channel alike. Continuous in all arguments.
-template <class T>
-MetallicMaterial<T> material_without_residual(const Reflected<T>& reflected, T metallic, T dielectric_f0,
-                                              T largest_f0, DiffuseCoupling coupling);
-
-// --- bodies ---
-
-template <class T>
-MetallicEstimate<T> estimate_metallic(const Reflected<T>& reflected, const MetallicPrior<T>& prior,
                                       const Quantisation<T>& quantisation, DiffuseCoupling coupling) {
     constexpr T kSharpest = T(1e-6), kWater = T(.02), kDoubt = T(.02);
     const auto finite = [](T x) { return x > T(0) ? std::min(x, T(1)) : T(0); };
@@ -198,6 +176,12 @@ MetallicEstimate<T> estimate_metallic(const Reflected<T>& reflected, const Metal
     return {m, told * plausible / (T(1) + departure * departure)};
 }
 
+/// Metallic material of a given metallic that reflects `reflected`. Its diffuse light is brought towards that
+/// of the base colour which explains f0 with the given dielectric_f0, but by no more than
+/// `diffuse_tolerance`; the material's dielectric_f0 is what of f0 the base colour then leaves. So f0 is
+/// exact and diffuse within the tolerance where such a material exists with members in [0, 1]; else f0 comes
+/// first. metallic in [0, 1]; 1 has base_color = f0 and the given dielectric_f0. Absolute error of both below
+/// 32 ulp of 1, besides the tolerance, where one exists. Continuous in all arguments.
 template <class T>
 MetallicMaterial<T> material_with_residual(const Reflected<T>& reflected, T metallic, T dielectric_f0,
                                            const Vec3<T>& diffuse_tolerance, DiffuseCoupling coupling) {
@@ -233,6 +217,8 @@ MetallicMaterial<T> material_with_residual(const Reflected<T>& reflected, T meta
     return material;
 }
 
+/// The same for targets that hold a grey dielectric_f0 up to `largest_f0`, 0 for none but the prior's own:
+/// base colour by least squares of diffuse and f0, every channel alike. Continuous in all arguments.
 template <class T>
 MetallicMaterial<T> material_without_residual(const Reflected<T>& reflected, T metallic, T dielectric_f0,
                                               T largest_f0, DiffuseCoupling coupling) {
