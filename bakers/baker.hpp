@@ -38,6 +38,7 @@ struct Read {
     std::string path;                   ///< as in the job, or "builtin:NAME"
     std::string colour_space = "auto";  ///< of a picture
     As as = As::picture;
+    bool with_alpha = false;  ///< of a picture: keeps a fourth (or of grey, second) channel as A, as stored
 };
 
 /// Decoded and colour-managed sources, by Params field.

@@ -10,9 +10,9 @@ namespace pbrbake {
 std::span<const Format> formats() {
     using enum PixelType;
     static const std::array<Format, 8> table{{{"exr", {half, float32}, 1024, true},
-                                              {"ktx2", {half, float32, unorm16}, 4, true},
-                                              {"dds", {half, float32, unorm16}, 4, true},
-                                              {"png", {unorm16}, 4, false},
+                                              {"ktx2", {half, float32, unorm16, unorm8}, 4, true},
+                                              {"dds", {half, float32, unorm16, unorm8}, 4, true},
+                                              {"png", {unorm16, unorm8}, 4, false},
                                               {"hdr", {rgbe}, 3, false},
                                               {"h", {half, float32, unorm16}, 4, false},
                                               {"json", {}, 0, false},

@@ -12,6 +12,12 @@ namespace pbrbake {
 /// share an exponent (Ward 1991, "Real pixels").
 enum class PixelType { half, float32, unorm16, unorm8, rgbe };
 
+/// What the codes of unorm8 stand for. In memory every channel is linear; other pixel types store it so.
+enum class Transfer {
+    linear,
+    srgb  ///< IEC 61966-2-1 in the first three channels; a fourth stays linear
+};
+
 /// One mip level: `faces` pictures of height x width texels, channels interleaved, row 0 at the top.
 /// texels.size() == faces * height * width * channels; the face index runs slowest.
 struct Level {
@@ -30,6 +36,7 @@ struct Image {
     std::vector<std::string> channels;  ///< EXR channel names, in memory order: {"R","G","B"}
     int faces = 1;
     std::vector<Level> levels;
+    Transfer transfer = Transfer::linear;
 
     int channel_count() const { return static_cast<int>(channels.size()); }
     const float* texel(int level, int face, int y, int x) const {
@@ -53,10 +60,12 @@ struct Repairs {
 
 /// A decoded source: linear light, in the working space that was asked for, repaired.
 struct SourceImage {
-    Image image;               ///< channels R G B; faces 6 for a cube map, 1 for an equirect or a texture
+    Image image;  ///< channels R G B, and A where it was asked for; faces 6 for a cube map, 1 for an equirect
+                  ///< or a texture
     std::string colour_space;  ///< of the file: stated by the job, else told by the file, else assumed
     bool colour_space_assumed = false;
     std::string units = "relative";  ///< "cd/m^2" only where the source says so
+    int bits = 0;                    ///< of an integer channel in the file; 0: float
     Repairs repairs;
     std::vector<std::byte> bytes;  ///< the whole file, where it was read as a text; then there is no image
     std::string name;              ///< of such a file, for messages

@@ -8,6 +8,7 @@
 #include "bakers/light/light.hpp"
 #include "bakers/params.hpp"
 #include "bakers/probe/probe.hpp"
+#include "bakers/texture/texture.hpp"
 
 namespace pbrbake {
 namespace {
@@ -33,6 +34,7 @@ Baker make_baker(std::string_view kind, int algorithm_version,
             },
             {},
             {},
+            {},
             {}};
 }
 
@@ -49,12 +51,21 @@ std::span<const Baker> bakers() {
             make_baker("ies", ies::kAlgorithmVersion, ies::check, ies::reads, ies::bake, ies::certify);
         ies.follow = ies::follow;
         ies.documents = [](const Json& json) { return ies::documents(read_params<ies::IesParams>(json)); };
+        Baker texture = make_baker("texture", texture::kAlgorithmVersion, texture::check, texture::reads,
+                                   texture::bake, texture::certify);
+        texture.images = [](const Json& json) {
+            return texture::images(read_params<texture::TextureParams>(json));
+        };
+        texture.documents = [](const Json& json) {
+            return texture::documents(read_params<texture::TextureParams>(json));
+        };
         Baker light = make_baker("light", light::kAlgorithmVersion, light::check, light::reads, light::bake,
                                  light::certify);
         light.documents = [](const Json& json) {
             return light::documents(read_params<light::LightParams>(json));
         };
-        return std::array{std::move(dfg), std::move(probe), std::move(ies), std::move(light)};
+        return std::array{std::move(dfg), std::move(probe), std::move(ies), std::move(texture),
+                          std::move(light)};
     }();
     return list;
 }

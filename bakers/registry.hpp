@@ -26,6 +26,8 @@ struct Baker {
     /// Files that a source names, relative to its folder: read if they are there. A file leads only into its
     /// own folder's tree.
     std::function<std::vector<Read>(const Inputs&)> follow = {};
+    /// Names of the images that a bake will write besides its first.
+    std::function<std::vector<std::string>(const Json& bake)> images = {};
     /// Suffixes of the documents that a bake will write.
     std::function<std::vector<std::string>(const Json& bake)> documents = {};
 };

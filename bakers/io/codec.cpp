@@ -95,7 +95,8 @@ std::vector<std::byte> encode(std::string_view format, const Image& image, const
     if (format == "ktx2") return encode_ktx2(image, info);
     if (format == "dds") return encode_dds(image, info);
     if (format == "h") return encode_c_header(image, info);
-    return format == "png" ? encode_png16(image) : encode_hdr(image, info);
+    if (format == "hdr") return encode_hdr(image, info);
+    return info.pixel == PixelType::unorm8 ? encode_png8(image) : encode_png16(image);
 }
 
 ReadBack read_product(const std::filesystem::path& path) {
@@ -117,7 +118,8 @@ std::vector<std::byte> encode_png8(int width, int height, const std::vector<std:
                          " can't be made of " + std::to_string(rgb.size()) + " bytes");
     std::vector<std::byte> file;
     std::string error;
-    if (!oiio_module().write_png8(width, height, rgb.data(), file, error)) throw unwritable("PNG: " + error);
+    if (!oiio_module().write_png8(width, height, 3, true, rgb.data(), file, error))
+        throw unwritable("PNG: " + error);
     return file;
 }
 

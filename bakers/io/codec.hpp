@@ -15,13 +15,15 @@ std::vector<std::byte> encode_ktx2(const Image& image, const FileInfo& info);
 std::vector<std::byte> encode_dds(const Image& image, const FileInfo& info);
 std::vector<std::byte> encode_c_header(const Image& image, const FileInfo& info);
 std::vector<std::byte> encode_png16(const Image& image);
+std::vector<std::byte> encode_png8(const Image& image);
 std::vector<std::byte> encode_hdr(const Image& image, const FileInfo& info);
 
 /// See read_product().
 ReadBack read_exr_product(Bytes file, const std::string& where);
 ReadBack read_ktx2_product(Bytes file, const std::string& where);
 ReadBack read_dds_product(Bytes file, const std::string& where);
-/// A PNG or HDR, its numbers as they are, through the OpenImageIO module: one channel or three.
+/// A PNG or HDR, linear as its product was, through the OpenImageIO module: one channel or three, and a PNG's
+/// alpha.
 ReadBack read_flat_product(const char* format, PixelType pixel, Bytes file, const std::string& where);
 
 inline Error unwritable(std::string message) {

@@ -1,5 +1,5 @@
 #pragma once
-// One number of a texel as KTX2 and DDS store it: half, float or unorm16, little-endian.
+// One number of a texel as KTX2 and DDS store it: half, float, unorm16 or unorm8, little-endian.
 
 #include <half.h>
 
@@ -10,6 +10,7 @@
 
 #include "bakers/image.hpp"
 #include "bakers/io/file_bytes.hpp"
+#include "bakers/io/unorm8.hpp"
 
 namespace pbrbake::io {
 
@@ -17,8 +18,17 @@ inline std::uint16_t unorm16_of(float value) {
     return static_cast<std::uint16_t>(std::nearbyint(std::clamp(static_cast<double>(value), 0., 1.) * 65535));
 }
 
-/// Writes 2 bytes (half, unorm16) or 4 (float32).
-inline void store_component(std::byte* out, float value, PixelType pixel) {
+/// Bytes of a number.
+constexpr std::uint32_t component_bytes(PixelType pixel) {
+    return pixel == PixelType::float32 ? 4 : pixel == PixelType::unorm8 ? 1 : 2;
+}
+
+/// Writes component_bytes(pixel) bytes; `transfer` is for unorm8.
+inline void store_component(std::byte* out, float value, PixelType pixel, Transfer transfer) {
+    if (pixel == PixelType::unorm8) {
+        *out = static_cast<std::byte>(unorm8_of(value, transfer));
+        return;
+    }
     if (pixel == PixelType::float32) {
         std::memcpy(out, &value, sizeof value);
         return;
@@ -27,7 +37,8 @@ inline void store_component(std::byte* out, float value, PixelType pixel) {
     std::memcpy(out, &bits, sizeof bits);
 }
 
-inline float load_component(Bytes bytes, std::size_t at, PixelType pixel) {
+inline float load_component(Bytes bytes, std::size_t at, PixelType pixel, Transfer transfer) {
+    if (pixel == PixelType::unorm8) return from_unorm8(static_cast<std::uint8_t>(bytes[at]), transfer);
     if (pixel == PixelType::float32) return load<float>(bytes, at);
     const auto bits = load<std::uint16_t>(bytes, at);
     return pixel == PixelType::half ? static_cast<float>(half(half::FromBits, bits))

@@ -1,11 +1,11 @@
 #pragma once
-// The part of DDS that we write: uncompressed float and 16-bit textures with a DX10 header, 2D and cube, with
-// mip levels. (Microsoft, "Programming Guide for DDS"; names as there.)
+// The part of DDS that we write: uncompressed float, 16-bit and 8-bit textures with a DX10 header, 2D and
+// cube, with mip levels. (Microsoft, "Programming Guide for DDS"; names as there.)
 
 #include <array>
 #include <cstdint>
 
-#include "bakers/image.hpp"
+#include "bakers/io/component.hpp"
 
 namespace pbrbake::io::dds {
 
@@ -39,19 +39,25 @@ struct Format {
     std::uint32_t dxgi_format;
     int channels;
     PixelType pixel;
-    std::uint32_t component_bytes() const { return pixel == PixelType::float32 ? 4 : 2; }
+    Transfer transfer = Transfer::linear;
+    std::uint32_t component_bytes() const { return io::component_bytes(pixel); }
     std::uint32_t texel_bytes() const { return component_bytes() * static_cast<std::uint32_t>(channels); }
 };
 
-/// DXGI_FORMAT_R16_FLOAT, R16G16, R16G16B16A16; R32, R32G32, R32G32B32A32; R16_UNORM, R16G16, R16G16B16A16.
-inline constexpr std::array<Format, 9> kFormats{{{54, 1, PixelType::half},
-                                                 {34, 2, PixelType::half},
-                                                 {10, 4, PixelType::half},
-                                                 {41, 1, PixelType::float32},
-                                                 {16, 2, PixelType::float32},
-                                                 {2, 4, PixelType::float32},
-                                                 {56, 1, PixelType::unorm16},
-                                                 {35, 2, PixelType::unorm16},
-                                                 {11, 4, PixelType::unorm16}}};
+/// DXGI_FORMAT_R16_FLOAT, R16G16, R16G16B16A16; R32, R32G32, R32G32B32A32; R16_UNORM, R16G16, R16G16B16A16;
+/// R8_UNORM, R8G8, R8G8B8A8, and R8G8B8A8_UNORM_SRGB: sRGB comes in no narrower texel.
+inline constexpr std::array<Format, 13> kFormats{{{54, 1, PixelType::half},
+                                                  {34, 2, PixelType::half},
+                                                  {10, 4, PixelType::half},
+                                                  {41, 1, PixelType::float32},
+                                                  {16, 2, PixelType::float32},
+                                                  {2, 4, PixelType::float32},
+                                                  {56, 1, PixelType::unorm16},
+                                                  {35, 2, PixelType::unorm16},
+                                                  {11, 4, PixelType::unorm16},
+                                                  {61, 1, PixelType::unorm8},
+                                                  {49, 2, PixelType::unorm8},
+                                                  {28, 4, PixelType::unorm8},
+                                                  {29, 4, PixelType::unorm8, Transfer::srgb}}};
 
 }  // namespace pbrbake::io::dds

@@ -47,6 +47,7 @@ ReadBack read_dds_product(Bytes file, const std::string& where) {
     ReadBack back;
     back.format = "dds";
     back.info.pixel = format.pixel;
+    back.image.transfer = format.transfer;
     back.image.faces = (header.misc & dds::kMiscCube) != 0 ? 6 : 1;
     back.image.channels = {"R", "G", "B", "A"};
     back.image.channels.resize(static_cast<std::size_t>(format.channels));
@@ -71,7 +72,8 @@ ReadBack read_dds_product(Bytes file, const std::string& where) {
         for (Level& level : back.image.levels)
             for (std::size_t i = 0; i < static_cast<std::size_t>(level.width) * level.height * channels;
                  ++i, at += format.component_bytes())
-                level.texels.push_back(load_component(file, at, format.pixel));
+                level.texels.push_back(
+                    load_component(file, at, format.pixel, channel_transfer(back.image, i % channels)));
     return back;
 }
 

@@ -15,9 +15,11 @@ static_assert(std::endian::native == std::endian::little, "DDS is little-endian,
 
 /// The narrowest format with at least the image's channels; three are widened to four. There always is one:
 /// io checks channels and pixel type before.
-dds::Format format_for(int channels, PixelType pixel) {
+dds::Format format_for(int channels, PixelType pixel, Transfer transfer) {
+    if (pixel != PixelType::unorm8) transfer = Transfer::linear;
     for (const dds::Format& format : dds::kFormats)
-        if (format.pixel == pixel && format.channels >= channels) return format;
+        if (format.pixel == pixel && format.transfer == transfer && format.channels >= channels)
+            return format;
     throw unwritable("dds holds up to 4 channels");
 }
 
@@ -48,7 +50,7 @@ dds::Header header_of(const Image& image, const dds::Format& format) {
 }  // namespace
 
 std::vector<std::byte> encode_dds(const Image& image, const FileInfo& info) {
-    const dds::Format format = format_for(image.channel_count(), info.pixel);
+    const dds::Format format = format_for(image.channel_count(), info.pixel, image.transfer);
     const dds::Header header = header_of(image, format);
     const std::size_t channels = image.channels.size();
     std::size_t texels = 0;
@@ -65,7 +67,8 @@ std::vector<std::byte> encode_dds(const Image& image, const FileInfo& info) {
             for (std::size_t i = 0; i < count; ++i, texel += channels)
                 for (std::size_t c = 0; c < static_cast<std::size_t>(format.channels);
                      ++c, out += format.component_bytes())
-                    store_component(out, c < channels ? texel[c] : 1.f, format.pixel);
+                    store_component(out, c < channels ? texel[c] : 1.f, format.pixel,
+                                    c < 3 ? format.transfer : Transfer::linear);
         }
     return file;
 }

@@ -15,7 +15,9 @@ struct Decoded {
     int width = 0;  ///< of a face
     int height = 0;
     int faces = 1;
-    std::vector<float> rgb;  ///< faces, rows, texels, R G B
+    std::vector<float> rgb;    ///< faces, rows, texels, R G B
+    std::vector<float> alpha;  ///< of each texel, or empty
+    int bits = 0;              ///< of an integer channel, 0 of a float
     Encoding encoding;
     bool encoding_assumed = true;
     double to_units = 1;  ///< multiplies linear values
@@ -27,7 +29,8 @@ Decoded decode_exr(Bytes file, const std::string& where, const ReadLimits& limit
 
 /// A file in a format that OpenImageIO reads for us.
 enum class ForeignFormat { hdr, png, tiff, targa, jpeg };
-Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& where, const ReadLimits& limits);
+Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& where, const ReadLimits& limits,
+                       bool with_alpha = false);
 
 /// Throws Error(unreadable_input) unless width x height texels of `bytes_per_texel` in memory are within the
 /// limits.

@@ -1,5 +1,5 @@
-// Products that are one 2D picture without metadata: 16-bit PNG and Radiance HDR. Both are read back through
-// OpenImageIO, which also writes the PNG.
+// Products that are one 2D picture without metadata: PNG of 16 and 8 bits, and Radiance HDR. Both are read
+// back through OpenImageIO, which also writes the PNG.
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include "bakers/io/codec.hpp"
 #include "bakers/io/component.hpp"
 #include "bakers/io/decoded.hpp"
+#include "bakers/io/foreign_claims.hpp"
 #include "bakers/io/keys.hpp"
 #include "bakers/io/module_api.hpp"
 #include "bakers/io/rgbe.hpp"
@@ -100,9 +101,26 @@ std::vector<std::byte> encode_png16(const Image& image) {
     return file;
 }
 
+std::vector<std::byte> encode_png8(const Image& image) {
+    const Level& level = image.levels.front();
+    const std::size_t channels = image.channels.size(), stored = channels == 2 ? 3 : channels;
+    std::vector<std::uint8_t> texels;
+    texels.reserve(level.texels.size() / channels * stored);
+    for (std::size_t i = 0; i < level.texels.size(); i += channels)
+        for (std::size_t c = 0; c < stored; ++c)
+            texels.push_back(c < channels ? unorm8_of(level.texels[i + c], channel_transfer(image, c))
+                                          : std::uint8_t{0});
+    std::vector<std::byte> file;
+    std::string error;
+    if (!oiio_module().write_png8(level.width, level.height, static_cast<int>(stored),
+                                  image.transfer == Transfer::srgb, texels.data(), file, error))
+        throw unwritable("PNG: " + error);
+    return file;
+}
+
 ReadBack read_flat_product(const char* format, PixelType pixel, Bytes file, const std::string& where) {
     std::string error;
-    const auto reader = oiio_module().open(format, file, error);
+    const auto reader = oiio_module().open(format, file, pixel == PixelType::unorm16, error);
     if (!reader) throw unreadable(where, error);
     const PictureSpec& spec = reader->spec();
     const int channels = reader->decoded_channels();
@@ -110,11 +128,20 @@ ReadBack read_flat_product(const char* format, PixelType pixel, Bytes file, cons
     ReadBack back;
     back.format = format;
     back.info.pixel = pixel == PixelType::unorm16 && spec.bytes_per_channel == 1 ? PixelType::unorm8 : pixel;
-    back.image.channels =
-        channels == 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"R"};
+    static const std::array<std::vector<std::string>, 4> kNames{
+        {{"R"}, {"R", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};
+    back.image.channels = kNames[static_cast<std::size_t>(channels - 1)];
     Level level{spec.width, spec.height, {}};
     level.texels.resize(static_cast<std::size_t>(spec.width) * spec.height * channels);
     if (!reader->read_rows(0, spec.height, level.texels.data(), error)) throw unreadable(where, error);
+    if (back.info.pixel == PixelType::unorm8) {
+        const auto encoding = png_encoding(file, where);
+        back.image.transfer = encoding && encoding->curve == Curve::srgb ? Transfer::srgb : Transfer::linear;
+        for (std::size_t i = 0; i < level.texels.size(); ++i) {
+            const auto code = static_cast<std::uint8_t>(std::lround(level.texels[i] * 255));
+            level.texels[i] = from_unorm8(code, channel_transfer(back.image, i % back.image.channels.size()));
+        }
+    }
     back.image.levels.push_back(std::move(level));
     return back;
 }

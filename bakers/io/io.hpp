@@ -24,6 +24,7 @@ struct ReadRequest {
     std::filesystem::path path = {};
     std::string colour_space = "auto";         ///< of the file; "auto": what the file tells, else by its type
     std::string working_space = "lin_rec709";  ///< of the result: lin_rec709 | acescg
+    bool with_alpha = false;                   ///< keeps alpha, where a PNG, TIFF, TGA or JPEG has it
     ReadLimits limits = {};
 };
 
@@ -64,8 +65,8 @@ const std::vector<std::string>& output_formats();
 /// Rounds every texel to what `pixel` can store (half: to nearest even), after multiplying by one power of
 /// two, the largest 2^-k, k >= 0, with which the peak of all images fits; returns it. Half and float keep
 /// signs; the unorm types end at 1 and clip negatives to 0, as rgbe does, which
-/// carries what rounding takes to the next texel, so that means are kept (a texel is off by less than .8 %). NaN and Inf stay in half and float;
-/// the caller has a bug then.
+/// carries what rounding takes to the next texel, so that means are kept (a texel is off by less than .8 %).
+/// NaN and Inf stay in half and float; the caller has a bug then.
 double quantise(std::vector<Image>& images, PixelType pixel);
 
 /// A product read back: our own EXR, KTX2 and DDS files (all faces and levels), PNG, HDR, and plain 2D EXR.

@@ -2,9 +2,11 @@
 
 namespace pbrbake::io::ktx2 {
 
-std::optional<Format> format_for(int channels, PixelType pixel) {
+std::optional<Format> format_for(int channels, PixelType pixel, Transfer transfer) {
+    if (pixel != PixelType::unorm8) transfer = Transfer::linear;
     for (const Format& format : kFormats)
-        if (format.pixel == pixel && format.channels >= channels) return format;
+        if (format.pixel == pixel && format.transfer == transfer && format.channels >= channels)
+            return format;
     return {};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The part of KTX 2.0 that we write: uncompressed float and 16-bit textures, 2D and cube.
+// The part of KTX 2.0 that we write: uncompressed float, 16-bit and 8-bit textures, 2D and cube.
 // Section titles refer to the KTX File Format Specification 2.0, and KDF to the Khronos Data Format
 // Specification 1.3.
 
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "bakers/image.hpp"
+#include "bakers/io/component.hpp"
 
 namespace pbrbake::io::ktx2 {
 
@@ -32,26 +32,33 @@ struct Format {
     std::uint32_t vk_format;
     int channels;
     PixelType pixel;
-    std::uint32_t component_bytes() const { return pixel == PixelType::float32 ? 4 : 2; }
+    Transfer transfer = Transfer::linear;
+    std::uint32_t component_bytes() const { return io::component_bytes(pixel); }
     std::uint32_t texel_bytes() const { return component_bytes() * static_cast<std::uint32_t>(channels); }
-    /// lcm(texel block size, 4), "mipPadding".
+    /// lcm(texel block size, 4), "mipPadding": sizes are powers of two.
     std::uint32_t alignment() const { return texel_bytes() < 4 ? 4 : texel_bytes(); }
 };
 
 /// VK_FORMAT_R16_SFLOAT, R16G16, R16G16B16A16, R32, R32G32 and R32G32B32A32_SFLOAT; R16_UNORM, R16G16 and
-/// R16G16B16A16_UNORM.
-inline constexpr std::array<Format, 9> kFormats{{{70, 1, PixelType::unorm16},
-                                                 {77, 2, PixelType::unorm16},
-                                                 {91, 4, PixelType::unorm16},
-                                                 {76, 1, PixelType::half},
-                                                 {83, 2, PixelType::half},
-                                                 {97, 4, PixelType::half},
-                                                 {100, 1, PixelType::float32},
-                                                 {103, 2, PixelType::float32},
-                                                 {109, 4, PixelType::float32}}};
+/// R16G16B16A16_UNORM; R8, R8G8 and R8G8B8A8_UNORM, and the same as SRGB.
+inline constexpr std::array<Format, 15> kFormats{{{70, 1, PixelType::unorm16},
+                                                  {77, 2, PixelType::unorm16},
+                                                  {91, 4, PixelType::unorm16},
+                                                  {76, 1, PixelType::half},
+                                                  {83, 2, PixelType::half},
+                                                  {97, 4, PixelType::half},
+                                                  {100, 1, PixelType::float32},
+                                                  {103, 2, PixelType::float32},
+                                                  {109, 4, PixelType::float32},
+                                                  {9, 1, PixelType::unorm8},
+                                                  {16, 2, PixelType::unorm8},
+                                                  {37, 4, PixelType::unorm8},
+                                                  {15, 1, PixelType::unorm8, Transfer::srgb},
+                                                  {22, 2, PixelType::unorm8, Transfer::srgb},
+                                                  {43, 4, PixelType::unorm8, Transfer::srgb}}};
 
 /// The narrowest format with at least `channels`; three are widened to four.
-std::optional<Format> format_for(int channels, PixelType pixel);
+std::optional<Format> format_for(int channels, PixelType pixel, Transfer transfer);
 std::optional<Format> format_of(std::uint32_t vk_format);
 
 }  // namespace pbrbake::io::ktx2

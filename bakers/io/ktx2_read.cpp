@@ -84,7 +84,8 @@ Level read_level(Bytes data, int width, int height, std::size_t count, std::size
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t c = 0; c < channels; ++c) {
             const std::size_t at = i * format.texel_bytes() + c * bytes;
-            level.texels.push_back(load_component(data, at, format.pixel));
+            level.texels.push_back(
+                load_component(data, at, format.pixel, c < 3 ? format.transfer : Transfer::linear));
         }
     return level;
 }
@@ -105,6 +106,7 @@ ReadBack read_ktx2_product(Bytes file, const std::string& where) {
     ReadBack back;
     back.format = "ktx2";
     back.info.pixel = format.pixel;
+    back.image.transfer = format.transfer;
     back.info.metadata = read_key_values(kvd, where);
     back.image.channels = take_channels(back.info.metadata, format.channels, where);
     back.info.metadata.erase("KTXwriter");

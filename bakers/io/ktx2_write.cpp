@@ -45,28 +45,31 @@ std::uint32_t primaries_of(const Image& image, const FileInfo& info) {
     return space != info.metadata.end() && space->second == "acescg" ? 7 : 1;
 }
 
-/// The basic data format descriptor, KDF 1.3, chapter 5: RGBSDA model, linear, a sample a channel; signed
-/// float, whose black and white are -1 and 1, or unsigned integers, whose are 0 and 65535.
+/// The basic data format descriptor, KDF 1.3, chapter 5: RGBSDA model, linear or sRGB, a sample a channel;
+/// signed float, whose black and white are -1 and 1, or unsigned integers, whose are 0 and all bits. Alpha is
+/// linear beside sRGB.
 std::vector<std::byte> data_format_descriptor(const ktx2::Format& format, std::uint32_t primaries) {
-    constexpr std::uint32_t kVersion = 2, kModelRgbsda = 1, kTransferLinear = 1;
-    constexpr std::uint32_t kFloat = 0x80, kSigned = 0x40, kAlpha = 15;
-    const bool is_float = format.pixel != PixelType::unorm16;
+    constexpr std::uint32_t kVersion = 2, kModelRgbsda = 1, kTransferLinear = 1, kTransferSrgb = 2;
+    constexpr std::uint32_t kFloat = 0x80, kSigned = 0x40, kLinear = 0x10, kAlpha = 15;
+    const bool is_float = format.pixel == PixelType::half || format.pixel == PixelType::float32;
+    const bool is_srgb = format.transfer == Transfer::srgb;
     const auto samples = static_cast<std::uint32_t>(format.channels);
     const std::uint32_t block_size = 24 + 16 * samples, bits = format.component_bytes() * 8;
     Writer out;
     out.put(std::uint32_t{4 + block_size});
     out.put(std::uint32_t{0});  // vendor: Khronos; type: basic
     out.put(kVersion | block_size << 16);
-    out.put(kModelRgbsda | primaries << 8 | kTransferLinear << 16);
+    out.put(kModelRgbsda | primaries << 8 | (is_srgb ? kTransferSrgb : kTransferLinear) << 16);
     out.put(std::uint32_t{0});  // a block is 1 x 1 x 1 x 1
     out.put(format.texel_bytes());
     out.put(std::uint32_t{0});
     for (std::uint32_t i = 0; i < samples; ++i) {
         const std::uint32_t channel = i == 3 ? kAlpha : i;
-        out.put(i * bits | (bits - 1) << 16 | (channel | (is_float ? kFloat | kSigned : 0)) << 24);
+        out.put(i * bits | (bits - 1) << 16 |
+                (channel | (is_float ? kFloat | kSigned : 0) | (is_srgb && i == 3 ? kLinear : 0)) << 24);
         out.put(std::uint32_t{0});  // sample position
         out.put(is_float ? std::bit_cast<std::uint32_t>(-1.f) : 0u);
-        out.put(is_float ? std::bit_cast<std::uint32_t>(1.f) : 65535u);
+        out.put(is_float ? std::bit_cast<std::uint32_t>(1.f) : (1u << bits) - 1);
     }
     return std::move(out.bytes());
 }
@@ -101,13 +104,14 @@ void put_level(const Level& level, std::size_t channels, const ktx2::Format& for
     const float* texel = level.texels.data();
     for (std::size_t i = 0; i < count; ++i, texel += channels)
         for (std::size_t c = 0; c < stored; ++c, out += bytes)
-            store_component(out, c < channels ? texel[c] : 1.f, format.pixel);
+            store_component(out, c < channels ? texel[c] : 1.f, format.pixel,
+                            c < 3 ? format.transfer : Transfer::linear);
 }
 
 }  // namespace
 
 std::vector<std::byte> encode_ktx2(const Image& image, const FileInfo& info) {
-    const auto format = ktx2::format_for(image.channel_count(), info.pixel);
+    const auto format = ktx2::format_for(image.channel_count(), info.pixel, image.transfer);
     if (!format)
         throw unwritable("ktx2 holds up to 4 channels; the image has " +
                          std::to_string(image.channels.size()) + ": use exr");

@@ -14,7 +14,7 @@
 namespace pbrbake::io {
 
 /// Raised when anything in this header changes; a module of another number is refused.
-inline constexpr int kModuleAbi = 2;
+inline constexpr int kModuleAbi = 3;
 
 /// What a file says of its picture before a pixel is decoded.
 struct PictureSpec {
@@ -36,8 +36,8 @@ class PictureReader {
     virtual const PictureSpec& spec() const noexcept = 0;
     /// Rows that a call to read_rows had best be a multiple of (a tile's height, else 1).
     virtual int row_quantum() const noexcept = 0;
-    /// Channels that read_rows returns: 3 of a colour picture, 1 of a grey one; alpha is dropped,
-    /// unmultiplied.
+    /// Channels that read_rows returns: 3 of a colour picture, 1 of a grey one, and one more where alpha was
+    /// asked for and is there; colour is never multiplied by it.
     virtual int decoded_channels() const noexcept = 0;
     /// Decodes rows [begin, end), integers as [0, 1], into (end - begin) * width * decoded_channels() floats.
     virtual bool read_rows(int begin, int end, float* texels, std::string& error) noexcept = 0;
@@ -48,12 +48,13 @@ struct OiioModule {
     /// `format` is OpenImageIO's name ("hdr", "png", "tiff", "targa", "jpeg"); `file` must outlive the
     /// reader.
     std::unique_ptr<PictureReader> (*open)(const char* format, std::span<const std::byte> file,
-                                           std::string& error);
+                                           bool with_alpha, std::string& error);
     /// Linear texels of 16 bits, 1, 3 or 4 channels, in native byte order.
     bool (*write_png16)(int width, int height, int channels, const std::uint16_t* texels,
                         std::vector<std::byte>& file, std::string& error);
-    bool (*write_png8)(int width, int height, const std::uint8_t* rgb, std::vector<std::byte>& file,
-                       std::string& error);
+    /// Texels of 8 bits, 1, 3 or 4 channels, linear or sRGB.
+    bool (*write_png8)(int width, int height, int channels, bool is_srgb, const std::uint8_t* texels,
+                       std::vector<std::byte>& file, std::string& error);
 };
 
 struct OcioModule {

@@ -28,7 +28,8 @@ PictureSpec describe(const OIIO::ImageSpec& spec) {
 
 class OiioReader : public PictureReader {
   public:
-    OiioReader(std::span<const std::byte> file) : proxy_(const_cast<std::byte*>(file.data()), file.size()) {}
+    OiioReader(std::span<const std::byte> file, bool with_alpha)
+        : proxy_(const_cast<std::byte*>(file.data()), file.size()), with_alpha_(with_alpha) {}
 
     bool open(const char* format, std::string& error) {
         input_ = OIIO::ImageInput::create(format);
@@ -38,7 +39,7 @@ class OiioReader : public PictureReader {
         }
         OIIO::ImageSpec config;
         config.attribute("oiio:UnassociatedAlpha",
-                         1);  // alpha is dropped, so colour must not be multiplied by it
+                         1);  // alpha is dropped or data, so colour must not be multiplied by it
         input_->set_ioproxy(&proxy_);
         OIIO::ImageSpec spec;
         if (!input_->open("memory." + std::string(format), spec, config)) {
@@ -58,7 +59,10 @@ class OiioReader : public PictureReader {
 
     const PictureSpec& spec() const noexcept override { return picture_; }
     int row_quantum() const noexcept override { return std::max(1, tile_height_); }
-    int decoded_channels() const noexcept override { return picture_.channels >= 3 ? 3 : 1; }
+    int decoded_channels() const noexcept override {
+        const int colours = picture_.channels >= 3 ? 3 : 1;
+        return colours + (with_alpha_ && picture_.channels > colours ? 1 : 0);
+    }
 
     bool read_rows(int begin, int end, float* texels, std::string& error) noexcept override {
         try {
@@ -80,6 +84,7 @@ class OiioReader : public PictureReader {
     OIIO::Filesystem::IOMemReader proxy_;
     std::unique_ptr<OIIO::ImageInput> input_;
     PictureSpec picture_;
+    bool with_alpha_;
     int tile_height_ = 0, x_ = 0, y_ = 0;
 };
 
@@ -91,10 +96,11 @@ void configure_once() {
     static_cast<void>(done);
 }
 
-std::unique_ptr<PictureReader> open(const char* format, std::span<const std::byte> file, std::string& error) {
+std::unique_ptr<PictureReader> open(const char* format, std::span<const std::byte> file, bool with_alpha,
+                                    std::string& error) {
     try {
         configure_once();
-        auto reader = std::make_unique<OiioReader>(file);
+        auto reader = std::make_unique<OiioReader>(file, with_alpha);
         if (reader->open(format, error)) return reader;
     } catch (const std::exception& failure) {
         error = failure.what();
@@ -128,11 +134,12 @@ bool write_png(const OIIO::ImageSpec& spec, const void* texels, std::vector<std:
     return false;
 }
 
-bool write_png8(int width, int height, const std::uint8_t* rgb, std::vector<std::byte>& file,
-                std::string& error) {
-    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    return write_png(spec, rgb, file, error);
+bool write_png8(int width, int height, int channels, bool is_srgb, const std::uint8_t* texels,
+                std::vector<std::byte>& file, std::string& error) {
+    OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", is_srgb ? "sRGB" : "Linear");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    return write_png(spec, texels, file, error);
 }
 
 bool write_png16(int width, int height, int channels, const std::uint16_t* texels,

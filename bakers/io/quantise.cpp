@@ -9,6 +9,7 @@
 
 #include "bakers/io/io.hpp"
 #include "bakers/io/rgbe.hpp"
+#include "bakers/io/unorm8.hpp"
 
 namespace pbrbake::io {
 namespace {
@@ -44,7 +45,7 @@ float round_to(float value, PixelType pixel) {
         case PixelType::unorm16:
             return to_steps(65535);
         case PixelType::unorm8:
-            return to_steps(255);
+            break;  // round_to_unorm8
     }
     return value;
 }
@@ -68,6 +69,15 @@ void round_to_rgbe(std::vector<float>& texels, std::size_t channels) {
     }
 }
 
+void round_to_unorm8(Level& level, const Image& image, float scale) {
+    const std::size_t channels = image.channels.size();
+    for (std::size_t i = 0; i < level.texels.size(); ++i) {
+        const Transfer transfer = channel_transfer(image, i % channels);
+        if (!std::isnan(level.texels[i]))
+            level.texels[i] = from_unorm8(unorm8_of(level.texels[i] * scale, transfer), transfer);
+    }
+}
+
 }  // namespace
 
 double quantise(std::vector<Image>& images, PixelType pixel) {
@@ -84,6 +94,10 @@ double quantise(std::vector<Image>& images, PixelType pixel) {
 
     for (Image& image : images)
         for (Level& level : image.levels) {
+            if (pixel == PixelType::unorm8) {
+                round_to_unorm8(level, image, static_cast<float>(scale));
+                continue;
+            }
             for (float& value : level.texels) value = round_to(static_cast<float>(value * scale), pixel);
             if (pixel == PixelType::rgbe) round_to_rgbe(level.texels, image.channels.size());
         }

@@ -62,30 +62,38 @@ void check_claims(ForeignFormat format, Bytes file, const std::string& where, co
                                     std::to_string(file.size()) + " bytes: it is truncated or malformed");
 }
 
-/// Appends one decoded strip, grey spread to RGB.
-void append_rgb(const std::vector<float>& strip, std::size_t count, int channels, std::vector<float>& rgb) {
+/// Appends one decoded strip: grey is spread to RGB, alpha goes apart.
+void append_strip(const std::vector<float>& strip, std::size_t count, int channels, Decoded& decoded) {
+    std::vector<float>& rgb = decoded.rgb;
     if (channels == 3) {
         rgb.insert(rgb.end(), strip.begin(), strip.begin() + static_cast<std::ptrdiff_t>(count));
         return;
     }
-    for (std::size_t i = 0; i < count; ++i) rgb.insert(rgb.end(), 3, strip[i]);
+    const auto step = static_cast<std::size_t>(channels);
+    for (std::size_t i = 0; i < count; i += step) {
+        if (channels == 4)
+            rgb.insert(rgb.end(), &strip[i], &strip[i] + 3);
+        else
+            rgb.insert(rgb.end(), 3, strip[i]);
+        if (channels == 2 || channels == 4) decoded.alpha.push_back(strip[i + step - 1]);
+    }
 }
 
 /// Row by row, so that memory is taken only as far as the file's bytes last.
-void read_texels(PictureReader& reader, const std::string& where, std::vector<float>& rgb) {
+void read_texels(PictureReader& reader, const std::string& where, Decoded& decoded) {
     const PictureSpec& spec = reader.spec();
     const int channels = reader.decoded_channels();
     constexpr int kRows = 64;
     const int step = (kRows + reader.row_quantum() - 1) / reader.row_quantum() * reader.row_quantum();
     const std::size_t row = static_cast<std::size_t>(spec.width) * channels;
     std::vector<float> strip(row * static_cast<std::size_t>(std::min(step, spec.height)));
-    rgb.reserve(static_cast<std::size_t>(spec.width) * spec.height * 3);
+    decoded.rgb.reserve(static_cast<std::size_t>(spec.width) * spec.height * 3);
     for (int begin = 0; begin < spec.height; begin += step) {
         const int end = std::min(begin + step, spec.height);
         std::string error;
         if (!reader.read_rows(begin, end, strip.data(), error))
             throw unreadable(where, "is truncated or malformed: " + error);
-        append_rgb(strip, row * static_cast<std::size_t>(end - begin), channels, rgb);
+        append_strip(strip, row * static_cast<std::size_t>(end - begin), channels, decoded);
     }
 }
 
@@ -96,7 +104,7 @@ void turn_upright(int orientation, Decoded& decoded) {
     const bool transposed = orientation >= 5;
     const bool flip_x = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
     const bool flip_y = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
-    std::vector<float> upright(decoded.rgb.size());
+    std::vector<float> upright(decoded.rgb.size()), upright_alpha(decoded.alpha.size());
     const int out_w = transposed ? h : w, out_h = transposed ? w : h;
     for (int y = 0; y < out_h; ++y)
         for (int x = 0; x < out_w; ++x) {
@@ -105,9 +113,13 @@ void turn_upright(int orientation, Decoded& decoded) {
             if (flip_x) sx = w - 1 - sx;
             if (flip_y) sy = h - 1 - sy;
             const float* from = decoded.rgb.data() + (static_cast<std::size_t>(sy) * w + sx) * 3;
-            std::copy(from, from + 3, upright.data() + (static_cast<std::size_t>(y) * out_w + x) * 3);
+            const std::size_t to = static_cast<std::size_t>(y) * out_w + x;
+            std::copy(from, from + 3, upright.data() + to * 3);
+            if (!decoded.alpha.empty())
+                upright_alpha[to] = decoded.alpha[static_cast<std::size_t>(sy) * w + sx];
         }
     decoded.rgb = std::move(upright);
+    decoded.alpha = std::move(upright_alpha);
     decoded.width = out_w;
     decoded.height = out_h;
 }
@@ -128,13 +140,14 @@ void check_limits(std::int64_t width, std::int64_t height, double bytes_per_texe
                                     " bytes; the limit is " + std::to_string(limits.max_decoded_bytes));
 }
 
-Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& where, const ReadLimits& limits) {
+Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& where, const ReadLimits& limits,
+                       bool with_alpha) {
     if (format == ForeignFormat::png && !png_is_complete(file))
         throw unreadable(where, "is truncated: its chunks don't run to IEND");
     if (format == ForeignFormat::jpeg && !jpeg_is_complete(file))
         throw unreadable(where, "is truncated: it has no end-of-image marker");
     std::string error;
-    const auto reader = oiio_module().open(oiio_name(format), file, error);
+    const auto reader = oiio_module().open(oiio_name(format), file, with_alpha, error);
     if (!reader) throw unreadable(where, "is truncated or malformed: " + error);
     const PictureSpec& spec = reader->spec();
     check_claims(format, file, where, spec, limits);
@@ -143,7 +156,8 @@ Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& wher
     decoded.width = spec.width;
     decoded.height = spec.height;
     find_encoding(format, file, where, spec, decoded);
-    read_texels(*reader, where, decoded.rgb);
+    decoded.bits = spec.is_float ? 0 : 8 * spec.bytes_per_channel;
+    read_texels(*reader, where, decoded);
     turn_upright(spec.orientation, decoded);
     return decoded;
 }

@@ -32,7 +32,7 @@ Decoded decode(Bytes file, const ReadRequest& request) {
     if (file.empty()) throw unreadable(where, "is empty");
     if (begins_with(file, "\x76\x2f\x31\x01"sv)) return decode_exr(file, where, request.limits);
     if (const auto format = foreign_format(file, lower_extension(request.path)))
-        return decode_foreign(*format, file, where, request.limits);
+        return decode_foreign(*format, file, where, request.limits, request.with_alpha);
     throw unreadable(where,
                      "is none of the formats that are read: EXR, HDR (RGBE), PNG, TIFF, TGA (.tga), JPEG");
 }
@@ -51,6 +51,17 @@ std::optional<Encoding> resolve_encoding(const ReadRequest& request, const Decod
     if (auto named = encoding_named(request.colour_space)) return named;
     throw Error(ExitCode::invalid_job, request.path.string(),
                 "unknown colour space '" + request.colour_space + "'; allowed: " + listed(colour_spaces()));
+}
+
+/// R G B A of both. Alpha is a number of [0, 1] as stored; NaN is 1.
+std::vector<float> interleaved(const std::vector<float>& rgb, const std::vector<float>& alpha) {
+    std::vector<float> rgba;
+    rgba.reserve(alpha.size() * 4);
+    for (std::size_t i = 0; i < alpha.size(); ++i) {
+        rgba.insert(rgba.end(), &rgb[3 * i], &rgb[3 * i] + 3);
+        rgba.push_back(alpha[i] < 1 ? std::max(0.f, alpha[i]) : 1.f);
+    }
+    return rgba;
 }
 
 }  // namespace
@@ -86,8 +97,13 @@ SourceImage read_source(const ReadRequest& request) {
         repair_non_finite(decoded.rgb, source.repairs);  // a conversion can overflow
         repair_negative(decoded.rgb, source.repairs);
 
+        source.bits = decoded.bits;
         source.image.channels = {"R", "G", "B"};
         source.image.faces = decoded.faces;
+        if (!decoded.alpha.empty()) {
+            source.image.channels.emplace_back("A");
+            decoded.rgb = interleaved(decoded.rgb, decoded.alpha);
+        }
         source.image.levels.push_back({decoded.width, decoded.height, std::move(decoded.rgb)});
         return source;
     } catch (const std::bad_alloc&) {

@@ -193,15 +193,23 @@ std::vector<Mistake> overwrites(const Job& job) {
     };
     for (std::size_t i = 0; i < job.bakes.size(); ++i) {
         const std::string& file = job.bakes[i].file;
-        for (const std::string& written : {file, file + ".json"})
-            if (written == file || job.record == Record::sidecar)
-                write(written, "/bakes/" + std::to_string(i) + "/name");
+        const std::string pointer = "/bakes/" + std::to_string(i) + "/name";
+        write(file, pointer);
+        if (job.record == Record::sidecar) write(file + ".json", pointer);
+        if (job.bakes[i].baker && job.bakes[i].baker->images)
+            for (const std::string& image : job.bakes[i].baker->images(job.bakes[i].json))
+                write(image_file(job.bakes[i], image), pointer);
     }
     if (job.record == Record::manifest) write("manifest.json", "/output");
     return mistakes;
 }
 
 }  // namespace
+
+std::string image_file(const Bake& bake, const std::string& image) {
+    const fs::path first(bake.file);
+    return first.stem().string() + "_" + image + first.extension().string();
+}
 
 JobError::JobError(ExitCode code, std::vector<Mistake> mistakes)
     : Error(code, "", all_lines(mistakes)), mistakes_(std::move(mistakes)) {}

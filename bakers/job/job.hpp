@@ -36,6 +36,9 @@ struct Bake {
     std::vector<Source> sources;
 };
 
+/// "X_normal.png" for image "normal" of a bake whose first file is X.png.
+std::string image_file(const Bake& bake, const std::string& image);
+
 /// Where the record of what was baked goes.
 enum class Record {
     manifest,  ///< one manifest.json in the output folder

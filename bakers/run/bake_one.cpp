@@ -146,6 +146,7 @@ class BakeRun {
         return io::read_source({source.file,
                                 source.read.colour_space,
                                 job_.working_space,
+                                source.read.with_alpha,
                                 {job_.max_side, job_.max_decoded_bytes}});
     }
 
@@ -214,8 +215,7 @@ class BakeRun {
 
     /// "X_<name>.ext"; refused if it is another bake's own product.
     fs::path named_file(const std::string& image_name) const {
-        const fs::path first(bake_.file);
-        const fs::path file = first.stem().string() + "_" + image_name + first.extension().string();
+        const fs::path file = job::image_file(bake_, image_name);
         for (const job::Bake& other : job_.bakes)
             if (other.file == file)
                 throw Error(ExitCode::unwritable_output, file.string(),
@@ -273,6 +273,9 @@ BakeReport plan_bake(const job::Job& job, const job::Bake& bake) {
     for (const job::Source& source : bake.sources)
         if (!source.file.empty()) report.reads.push_back(source.file);
     report.writes.push_back((job.output / bake.file).lexically_normal());
+    if (bake.baker->images)
+        for (const std::string& name : bake.baker->images(bake.json))
+            report.writes.push_back((job.output / job::image_file(bake, name)).lexically_normal());
     if (bake.baker->documents)
         for (const std::string& suffix : bake.baker->documents(bake.json))
             if (!is_main_document(bake, suffix))

@@ -8,9 +8,10 @@ namespace pbrbake::io::test {
 namespace {
 
 /// DXGI_FORMAT: bytes a texel. R32G32B32A32_FLOAT, R16G16B16A16_FLOAT and _UNORM, R32G32_FLOAT, R16G16_FLOAT
-/// and _UNORM, R32_FLOAT, R16_FLOAT and _UNORM.
+/// and _UNORM, R32_FLOAT, R16_FLOAT and _UNORM; R8, R8G8 and R8G8B8A8_UNORM, the last as _SRGB too.
 const std::map<std::uint32_t, std::uint32_t> kTexelBytes{{2, 16}, {10, 8}, {11, 8}, {16, 8}, {34, 4},
-                                                         {35, 4}, {41, 4}, {54, 2}, {56, 2}};
+                                                         {35, 4}, {41, 4}, {54, 2}, {56, 2}, {61, 1},
+                                                         {49, 2}, {28, 4}, {29, 4}};
 
 class Checker {
   public:

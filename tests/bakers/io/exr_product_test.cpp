@@ -70,8 +70,8 @@ TEST_P(Products, SameArgumentsSameBytes) {
 
 TEST_P(Products, RefusesPixelTypesItCannotHold) {
     FileInfo info;
-    info.pixel = PixelType::unorm8;
-    EXPECT_NE(refusal(GetParam(), marked_image(2, 1, 1, {"R"}), info).find("pixel type unorm8"),
+    info.pixel = PixelType::rgbe;
+    EXPECT_NE(refusal(GetParam(), marked_image(2, 1, 1, {"R"}), info).find("pixel type rgbe"),
               std::string::npos);
 }
 

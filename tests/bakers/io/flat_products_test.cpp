@@ -46,6 +46,48 @@ TEST(Png16, ReadsBackExactly) {
     }
 }
 
+TEST(EightBits, ReadBackExactlyInEveryContainer) {
+    for (const char* format : {"png", "ktx2", "dds"})
+        for (const Transfer transfer : {Transfer::linear, Transfer::srgb})
+            for (const auto& channels :
+                 std::vector<std::vector<std::string>>{{"R", "G", "B"}, {"R", "G", "B", "A"}}) {
+                SCOPED_TRACE(format);
+                Image image = picture(16, 16, channels), quantised;
+                image.transfer = transfer;
+                const ReadBack back = round_trip(format, image, PixelType::unorm8, quantised);
+                EXPECT_EQ(back.info.pixel, PixelType::unorm8);
+                EXPECT_EQ(back.image.transfer, transfer);
+                const std::size_t kept = channels.size(), stored = back.image.channels.size();
+                for (std::size_t i = 0; i < 256; ++i)
+                    for (std::size_t c = 0; c < kept; ++c)
+                        EXPECT_EQ(back.image.levels[0].texels[i * stored + c],
+                                  quantised.levels[0].texels[i * kept + c]);
+            }
+}
+
+TEST(EightBits, RoundToTheNearestCodeOfTheirOwnScale) {
+    // Independent of the table: the standard's curve in long double, and alpha without it.
+    const auto encoded = [](long double v) {
+        return v <= .0031308L ? v * 12.92L : 1.055L * std::pow(v, 1 / 2.4L) - .055L;
+    };
+    Image image;
+    image.channels = {"R", "G", "B", "A"};
+    image.transfer = Transfer::srgb;
+    Level level{1000, 1, {}};
+    for (int i = 0; i < 4000; ++i) level.texels.push_back(static_cast<float>(i) / 3999);
+    image.levels.push_back(level);
+    std::vector<Image> images{image};
+    EXPECT_EQ(quantise(images, PixelType::unorm8), 1);
+    for (std::size_t i = 0; i < 4000; ++i) {
+        const long double in = level.texels[i], out = images[0].levels[0].texels[i];
+        if (i % 4 == 3) {
+            EXPECT_LE(std::abs(out - in), .5L / 255 + 1e-7L);
+            continue;
+        }
+        EXPECT_LE(std::abs(encoded(out) - encoded(in)), .5L / 255 + 1e-6L) << i;
+    }
+}
+
 TEST(Hdr, ReadsBackExactlyCodedAndFlat) {
     for (const int width : {3, 8, 300}) {
         Image image = picture(width, 4, {"R", "G", "B"});

@@ -229,5 +229,26 @@ TEST_F(ForeignSource, RefusesUnknownColourSpacesByName) {
     EXPECT_EQ(code_of_reading({dir_ / "a.hdr", "auto", "sepia"}, &message), 3);
 }
 
+TEST_F(ForeignSource, KeepsAlphaWhereItIsAskedFor) {
+    Image image;
+    image.channels = {"R", "G", "B", "A"};
+    image.transfer = Transfer::srgb;
+    image.levels.push_back({2, 1, {1, .5f, 0, .25f, .1f, .2f, .3f, 0}});
+    std::vector<Image> images{image};
+    quantise(images, PixelType::unorm8);
+    FileInfo info;
+    info.pixel = PixelType::unorm8;
+    TempDir dir;
+    write_file(dir / "a.png", encode("png", images[0], info));
+    ReadRequest request{dir / "a.png"};
+    EXPECT_EQ(read_source(request).image.channels.size(), 3u);
+    request.with_alpha = true;
+    const SourceImage source = read_source(request);
+    EXPECT_EQ(source.bits, 8);
+    EXPECT_EQ(source.image.channels, image.channels);
+    for (std::size_t i = 0; i < 8; ++i)  // a colour that alpha hides keeps its value
+        EXPECT_NEAR(source.image.levels[0].texels[i], images[0].levels[0].texels[i], 2e-7) << i;
+}
+
 }  // namespace
 }  // namespace pbrbake::io::test

@@ -12,8 +12,9 @@ namespace {
 
 /// VK_FORMAT_…_SFLOAT, and R16_UNORM, R16G16 and R16G16B16A16: channels and bits.
 const std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> kFormats{
-    {70, {1, 16}}, {77, {2, 16}},  {91, {4, 16}},  {76, {1, 16}}, {83, {2, 16}},
-    {97, {4, 16}}, {100, {1, 32}}, {103, {2, 32}}, {109, {4, 32}}};
+    {9, {1, 8}},   {16, {2, 8}},  {37, {4, 8}},   {15, {1, 8}},   {22, {2, 8}},
+    {43, {4, 8}},  {70, {1, 16}}, {77, {2, 16}},  {91, {4, 16}},  {76, {1, 16}},
+    {83, {2, 16}}, {97, {4, 16}}, {100, {1, 32}}, {103, {2, 32}}, {109, {4, 32}}};
 
 class Checker {
   public:
@@ -61,7 +62,8 @@ class Checker {
             breaches_.push_back("vkFormat " + std::to_string(u32(12)) + " is none that pbrbake writes");
             return;
         }
-        is_unorm_ = u32(12) == 70 || u32(12) == 77 || u32(12) == 91;
+        is_unorm_ = u32(12) == 70 || u32(12) == 77 || u32(12) == 91 || u32(12) < 50;
+        is_srgb_ = u32(12) == 15 || u32(12) == 22 || u32(12) == 43;
         channels_ = format->second.first;
         bits_ = format->second.second;
         width_ = u32(20);
@@ -103,7 +105,8 @@ class Checker {
         const std::uint64_t primaries = number(at + 13, 1);
         expect(primaries == 0 || primaries == 1 || primaries == 7,
                "colorPrimaries: unspecified, BT.709 or AP1");
-        expect(number(at + 14, 1) == 1, "transferFunction must be linear");
+        expect(number(at + 14, 1) == (is_srgb_ ? 2 : 1),
+               "transferFunction must be the format's: linear or sRGB");
         expect(number(at + 15, 1) == 0, "flags must be 0");
         expect(u32(at + 16) == 0, "texelBlockDimension must be 1 x 1 x 1 x 1");
         expect(number(at + 20, 1) == channels_ * bits_ / 8, "bytesPlane0 must be a texel's size");
@@ -117,12 +120,14 @@ class Checker {
         expect(number(at + 2, 1) == bits_ - 1, which + "bitLength must be a component's bits less one");
         const std::uint64_t type = number(at + 3, 1);
         expect((type & 15) == (i == 3 ? 15 : i), which + "channelId");
-        expect((type & 0xF0) == (is_unorm_ ? 0 : 0xC0),
+        expect((type & 0xF0) == (is_srgb_ && i == 3 ? 0x10
+                                 : is_unorm_        ? 0
+                                                    : 0xC0),
                which + "qualifiers must be float and signed, or none");
         expect(u32(at + 4) == 0, which + "samplePosition must be 0");
         expect(u32(at + 8) == (is_unorm_ ? 0 : 0xBF800000u), which + "sampleLower must be -1.0f, or 0");
-        expect(u32(at + 12) == (is_unorm_ ? 65535 : 0x3F800000u),
-               which + "sampleUpper must be 1.0f, or 65535");
+        expect(u32(at + 12) == (is_unorm_ ? (1u << bits_) - 1 : 0x3F800000u),
+               which + "sampleUpper must be 1.0f, or all bits");
     }
 
     void check_key_values() {
@@ -200,6 +205,7 @@ class Checker {
     const std::vector<std::byte>& file_;
     std::vector<std::string> breaches_;
     bool is_unorm_ = false;
+    bool is_srgb_ = false;
     std::uint64_t channels_ = 0, bits_ = 0, width_ = 0, height_ = 0, faces_ = 0, level_count_ = 0;
     Section dfd_, kvd_;
 };

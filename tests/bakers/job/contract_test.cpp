@@ -11,6 +11,7 @@
 #include "bakers/light/params.hpp"
 #include "bakers/probe/params.hpp"
 #include "bakers/registry.hpp"
+#include "bakers/texture/params.hpp"
 
 namespace pbrbake {
 namespace {
@@ -69,6 +70,7 @@ TEST(JobSchema, NamesEnumerationsAsParamsDo) {
     expect_enums_agree<dfg::DfgParams>("dfg");
     expect_enums_agree<probe::ProbeParams>("probe");
     expect_enums_agree<ies::IesParams>("ies");
+    expect_enums_agree<texture::TextureParams>("texture");
     expect_enums_agree<light::LightParams>("light");
 }
 

@@ -105,7 +105,7 @@ TEST(Job, SaysWhatIsMissing) {
     EXPECT_THAT(mistakes("{}"), ElementsAre("/version: missing; allowed: 1",
                                             StartsWith("/bakes: missing; allowed: an array")));
     EXPECT_THAT(mistakes(R"({"version": 1, "bakes": [{"name": "a"}]})"),
-                ElementsAre(R"(/bakes/0/kind: missing; allowed: "dfg", "probe", "ies", "light")"));
+                ElementsAre(R"(/bakes/0/kind: missing; allowed: "dfg", "probe", "ies", "texture", "light")"));
     EXPECT_THAT(mistakes(R"({"version": 1, "bakes": [{"kind": "probe", "name": "a"}]})"),
                 ElementsAre(StartsWith("/bakes/0/source: missing; allowed: a string (Environment")));
     EXPECT_THAT(mistakes(R"({"version": 1, "bakes": []})"),
@@ -115,7 +115,7 @@ TEST(Job, SaysWhatIsMissing) {
 TEST(Job, NamesAnUnknownKindOnce) {
     EXPECT_THAT(
         mistakes(R"({"version": 1, "bakes": [{"kind": "prob", "name": "a", "source": "x"}]})"),
-        ElementsAre(R"(/bakes/0/kind: found "prob"; allowed: "dfg", "probe", "ies", "light"; did you mean "probe"?)"));
+        ElementsAre(R"(/bakes/0/kind: found "prob"; allowed: "dfg", "probe", "ies", "texture", "light"; did you mean "probe"?)"));
 }
 
 TEST(Job, RefusesNamesThatAreNoFileStems) {

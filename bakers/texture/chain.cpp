@@ -1,0 +1,91 @@
+#include "bakers/texture/chain.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pbr/brdf/roughness.hpp"
+#include "pbr/legacy/normal_variance.hpp"
+
+namespace pbrbake::texture {
+namespace {
+
+/// The texels along one axis that a smaller one covers, and their shares: two, or three of an odd side.
+struct Cover {
+    int first = 0, count = 0;
+    std::array<float, 4> share{};
+};
+
+Cover cover(int index, int small, int large) {
+    const double begin = static_cast<double>(index) * large / small,
+                 end = static_cast<double>(index + 1) * large / small;
+    Cover result;
+    result.first = static_cast<int>(begin);
+    result.count = std::min(4, static_cast<int>(std::ceil(end - 1e-9)) - result.first);
+    for (int i = 0; i < result.count; ++i) {
+        const double low = std::max(begin, static_cast<double>(result.first + i));
+        const double high = std::min(end, static_cast<double>(result.first + i + 1));
+        result.share[static_cast<std::size_t>(i)] = static_cast<float>((high - low) / (end - begin));
+    }
+    return result;
+}
+
+struct Sums {
+    Colour diffuse{0}, f0{0};
+    float metallic = 0, occlusion = 0, opacity = 0;
+    pbr::SlopeMoments<float> slopes;
+
+    void add(const MapLevel& level, std::size_t i, float share) {
+        diffuse += share * level.diffuse[i];
+        f0 += share * level.f0[i];
+        metallic += share * level.metallic[i];
+        if (!level.occlusion.empty()) occlusion += share * level.occlusion[i];
+        if (!level.opacity.empty()) opacity += share * level.opacity[i];
+        slopes.add(level.normal.empty() ? Colour(0, 0, 1) : level.normal[i],
+                   pbr::alpha_from_perceptual_roughness(level.perceptual_roughness[i]), share);
+    }
+
+    void store(MapLevel& level, std::size_t i) const {
+        level.diffuse[i] = diffuse;
+        level.f0[i] = f0;
+        level.metallic[i] = metallic;
+        level.perceptual_roughness[i] = pbr::perceptual_roughness_from_alpha(slopes.alpha());
+        if (!level.normal.empty()) level.normal[i] = slopes.normal();
+        if (!level.occlusion.empty()) level.occlusion[i] = occlusion;
+        if (!level.opacity.empty()) level.opacity[i] = opacity;
+    }
+};
+
+}  // namespace
+
+MapLevel next_level(const MapLevel& level, Context& context) {
+    MapLevel next;
+    next.width = std::max(1, level.width / 2);
+    next.height = std::max(1, level.height / 2);
+    next.diffuse.resize(next.texels());
+    next.f0.resize(next.texels());
+    next.metallic.resize(next.texels());
+    next.perceptual_roughness.resize(next.texels());
+    if (!level.normal.empty()) next.normal.resize(next.texels());
+    if (!level.occlusion.empty()) next.occlusion.resize(next.texels());
+    if (!level.opacity.empty()) next.opacity.resize(next.texels());
+    context.parallel_for(next.height, 16, [&](std::int64_t begin, std::int64_t end) {
+        for (auto y = static_cast<int>(begin); y < end; ++y) {
+            const Cover rows = cover(y, next.height, level.height);
+            for (int x = 0; x < next.width; ++x) {
+                const Cover columns = cover(x, next.width, level.width);
+                Sums sums;
+                for (int j = 0; j < rows.count; ++j)
+                    for (int i = 0; i < columns.count; ++i)
+                        sums.add(level,
+                                 static_cast<std::size_t>(rows.first + j) * level.width + columns.first + i,
+                                 rows.share[static_cast<std::size_t>(j)] *
+                                     columns.share[static_cast<std::size_t>(i)]);
+                sums.store(next, static_cast<std::size_t>(y) * next.width + x);
+            }
+        }
+    });
+    return next;
+}
+
+}  // namespace pbrbake::texture

@@ -1,0 +1,45 @@
+#include "bakers/texture/difference.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pbr/numerics/elementary.hpp"
+
+namespace pbrbake::texture {
+namespace {
+
+/// CIE 15:2004, 8.2.1.1.
+double lab_curve(double t) {
+    constexpr double kEdge = 6. / 29;
+    return t > kEdge * kEdge * kEdge ? pbr::exp_exact(pbr::log_exact(t) / 3)
+                                     : t / (3 * kEdge * kEdge) + 4. / 29;
+}
+
+std::array<double, 3> lab(const Colour& colour) {
+    const double r = colour.x, g = colour.y, b = colour.z;
+    // IEC 61966-2-1's matrix, each row over the white it makes.
+    const double x = lab_curve((.4124 * r + .3576 * g + .1805 * b) / .9505);
+    const double y = lab_curve(.2126 * r + .7152 * g + .0722 * b);
+    const double z = lab_curve((.0193 * r + .1192 * g + .9505 * b) / 1.089);
+    return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+}  // namespace
+
+Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness,
+                  pbr::Scattering scattering) {
+    const double grey = static_cast<double>(pbr::mean_channel(reflected.f0));
+    const double mean = pbr::mean_specular_albedo(
+        grey, pbr::mean_albedo_ggx(static_cast<double>(perceptual_roughness)), scattering);
+    // The lobe takes f0's colour: energy is kept in the mean channel, as it was solved.
+    return {reflected.diffuse, grey > 0 ? reflected.f0 * static_cast<float>(mean / grey) : Colour(0)};
+}
+
+double delta_e(const Colour& a, const Colour& b) {
+    const std::array<double, 3> p = lab(a), q = lab(b);
+    return std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
+                     (p[2] - q[2]) * (p[2] - q[2]));
+}
+
+}  // namespace pbrbake::texture

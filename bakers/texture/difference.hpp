@@ -1,0 +1,21 @@
+#pragma once
+// How far a PBR texel is from the legacy one: what both lobes reflect, and how that looks.
+
+#include "bakers/texture/maps.hpp"
+
+namespace pbrbake::texture {
+
+/// What a surface returns of an even white sky, a colour: diffuse, and the specular lobe's mean albedo.
+struct Albedo {
+    Colour diffuse, specular;
+    Colour total() const { return diffuse + specular; }
+};
+
+/// Of a GGX lobe: its mean albedo per channel, f90 by Frostbite's rule on the mean channel.
+Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness,
+                  pbr::Scattering scattering);
+
+/// CIE 1976 colour difference of two linear Rec. 709 colours under D65, 0 to about 100; 1 is just seen.
+double delta_e(const Colour& a, const Colour& b);
+
+}  // namespace pbrbake::texture

@@ -1,0 +1,95 @@
+#include "bakers/texture/material.hpp"
+
+#include <array>
+
+namespace pbrbake::texture {
+namespace {
+
+constexpr std::array<std::string_view, 19> kHeldNames{"0",
+                                                      "1",
+                                                      "base_color.r",
+                                                      "base_color.g",
+                                                      "base_color.b",
+                                                      "opacity",
+                                                      "metallic",
+                                                      "perceptual_roughness",
+                                                      "smoothness",
+                                                      "reflectance",
+                                                      "specular",
+                                                      "occlusion",
+                                                      "normal.x",
+                                                      "normal.y",
+                                                      "-normal.y",
+                                                      "normal.z",
+                                                      "dielectric_f0.r",
+                                                      "dielectric_f0.g",
+                                                      "dielectric_f0.b"};
+
+Json channels_json(const Layout& layout) {
+    Json images = Json::object();
+    for (const PackedImage& image : layout.images) {
+        Json channels = Json::array();
+        for (const Held held : image.channels) channels.push_back(kHeldNames[static_cast<std::size_t>(held)]);
+        images[image.name] = std::move(channels);
+    }
+    return images;
+}
+
+/// glTF 2.0, "Material"; KHR_materials_specular, whose f0 is (ior's .04) specularColorFactor
+/// specularColorTexture.
+Json gltf_material(const Layout& layout, float specular_unit) {
+    Json material, images = Json::array();
+    const auto texture = [&](const char* name) {
+        Json info;
+        for (std::size_t i = 0; i < layout.images.size(); ++i)
+            if (layout.images[i].name == name) info["index"] = i;
+        return info;
+    };
+    for (const PackedImage& image : layout.images) images.push_back(image.name);
+    material["pbrMetallicRoughness"] = {{"baseColorTexture", texture("base_color")},
+                                        {"metallicRoughnessTexture", texture("orm")}};
+    material["occlusionTexture"] = texture("orm");
+    if (const Json normal = texture("normal"); !normal.is_null()) material["normalTexture"] = normal;
+    if (layout.images.front().channels.size() == 4) material["alphaMode"] = "BLEND";
+    if (layout.has_residual) {
+        constexpr double kGltfF0 = .04;
+        const double factor = static_cast<double>(specular_unit) / kGltfF0;
+        material["extensions"]["KHR_materials_specular"] = {{"specularColorFactor", {factor, factor, factor}},
+                                                            {"specularColorTexture", texture("specular")}};
+    }
+    return {{"images", std::move(images)}, {"material", std::move(material)}};
+}
+
+}  // namespace
+
+Json properties_json(const TextureParams& params, const Layout& layout, const Findings& findings,
+                     const Sources& sources, float specular_unit) {
+    Json json{{"size", {sources.width(), sources.height()}},
+              {"packing", enum_name(params.packing)},
+              {"images", channels_json(layout)}};
+    if (layout.has_residual) json["dielectric_f0_unit"] = specular_unit;
+    json["surface"] = findings.surface;
+    if (!findings.surface_word.empty()) json["surface_word"] = findings.surface_word;
+    json["calibration"] = findings.calibration;
+    json["specular_scale"] = findings.specular_scale;
+    json["diffuse_alpha"] = findings.alpha;
+    if (sources.has_normal()) {
+        json["normal_green"] = findings.green_down ? "down" : "up";
+        json["green_correlation"] = findings.green_correlation;
+    }
+    json["mean_metallic"] = findings.metallic;
+    json["mean_confidence"] = findings.confidence;
+    json["low_confidence"] = findings.low_confidence;
+    json["f0_clamped"] = findings.f0_clamped;
+    json["over_unity"] = findings.over_unity;
+    return json;
+}
+
+Json material_json(const TextureParams& params, const Layout& layout, float specular_unit) {
+    Json json{{"packing", enum_name(params.packing)}, {"channels", channels_json(layout)}};
+    if (params.packing == Packing::gltf) json["gltf"] = gltf_material(layout, specular_unit);
+    if (layout.has_residual) json["dielectric_f0_unit"] = specular_unit;
+    return json;
+}
+
+}  // namespace pbrbake::texture

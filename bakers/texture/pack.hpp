@@ -1,0 +1,65 @@
+#pragma once
+// Which channel of which image holds what, a target: packing, and reading back what was packed.
+
+#include "bakers/texture/maps.hpp"
+
+namespace pbrbake::texture {
+
+/// What a channel holds.
+enum class Held {
+    zero,
+    one,
+    base_r,
+    base_g,
+    base_b,
+    opacity,
+    metallic,
+    perceptual_roughness,
+    smoothness,
+    reflectance,  ///< Frostbite's: f0 = .16 reflectance^2
+    specular,     ///< Unreal's: f0 = .08 specular
+    occlusion,
+    normal_x,
+    normal_y,       ///< up
+    normal_y_down,  ///< DirectX
+    normal_z,
+    dielectric_r,  ///< dielectric f0 over Layout::specular_unit
+    dielectric_g,
+    dielectric_b,
+};
+
+struct PackedImage {
+    std::string name;
+    std::vector<Held> channels;
+    bool is_colour = false;  ///< stored as sRGB where codes are 8 bits
+};
+
+/// A target's images, the first the base colour's.
+struct Layout {
+    std::vector<PackedImage> images;
+    pbr::DiffuseCoupling coupling = pbr::DiffuseCoupling::none;  ///< of the target's shader
+    bool has_residual = false;                                   ///< a dielectric f0 of any colour
+    float largest_f0 = 0;  ///< of its grey dielectric f0; 0: fixed at the job's dielectric_f0
+};
+
+/// The layout of a set; the names of its images don't depend on `has_opacity`.
+Layout layout_of(const TextureParams& params, bool has_opacity);
+
+/// The material that a texel of a level becomes in the layout.
+pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,
+                                         const MapLevel& level, std::size_t texel, const Colour& tolerance);
+
+/// A level of every image of the layout. `specular_unit` divides dielectric_f0.
+std::vector<Level> pack(const TextureParams& params, const Layout& layout, const MapLevel& level,
+                        const std::vector<pbr::MetallicMaterial<float>>& materials, float specular_unit,
+                        Context& context);
+
+/// The material and perceptual roughness of a texel of stored images.
+struct Unpacked {
+    pbr::MetallicMaterial<float> material;
+    float perceptual_roughness;
+};
+Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x,
+                int y, float specular_unit, double scale);
+
+}  // namespace pbrbake::texture

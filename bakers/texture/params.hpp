@@ -1,0 +1,152 @@
+#pragma once
+// Parameters of a texture set; schemas/job.schema.json, definitions/texture, says what each means.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "bakers/params.hpp"
+
+namespace pbrbake {
+namespace texture {
+
+enum class Model { specular_gloss, blinn_phong, phong };
+enum class Coupling { automatic, none, fresnel };
+enum class Norm { energy, n_plus_8, none, over_pi };
+enum class Fit { slope, l2, cumulative, half_width };
+enum class GlossIn { automatic, gloss, specular_alpha, diffuse_alpha, normal_alpha };
+enum class GlossIs { automatic, smoothness, perceptual_roughness, alpha, power, power_log2 };
+enum class Green { automatic, up, down };
+enum class AlphaIs { automatic, opacity, nothing };
+enum class SurfaceIs { automatic, any, dielectric, metal };
+enum class Calibrate { automatic, none, library };
+enum class Packing { gltf, unity, unreal, frostbite, separate };
+enum class Wrap { repeat, clamp };
+enum class ExtraMap { confidence, difference };
+
+struct TextureParams {
+    std::string diffuse, specular, gloss, normal, occlusion, opacity;  ///< paths; "": none
+    std::string colour_space;
+    Model model;
+    Coupling diffuse_coupling;
+    Norm norm;
+    Fit fit;
+    GlossIn gloss_in;
+    GlossIs gloss_is;
+    double power_scale;
+    double power;  ///< 0: none
+    std::vector<double> diffuse_factor, specular_factor;
+    double gloss_factor;
+    Green normal_green;
+    AlphaIs alpha_is;
+    SurfaceIs surface;
+    Calibrate calibrate;
+    double dielectric_f0;
+    double f0_tolerance;
+    bool regularise;
+    bool multiscatter;
+    Packing packing;
+    bool residual;
+    Wrap wrap;
+    int levels;  ///< 0: down to 1 x 1
+    bool dither;
+    std::int64_t seed;
+    std::vector<ExtraMap> maps;
+
+    template <class Visit>
+    static void fields(Visit&& visit) {
+        visit("diffuse", &TextureParams::diffuse);
+        visit("specular", &TextureParams::specular);
+        visit("gloss", &TextureParams::gloss);
+        visit("normal", &TextureParams::normal);
+        visit("occlusion", &TextureParams::occlusion);
+        visit("opacity", &TextureParams::opacity);
+        visit("colour_space", &TextureParams::colour_space);
+        visit("model", &TextureParams::model);
+        visit("diffuse_coupling", &TextureParams::diffuse_coupling);
+        visit("norm", &TextureParams::norm);
+        visit("fit", &TextureParams::fit);
+        visit("gloss_in", &TextureParams::gloss_in);
+        visit("gloss_is", &TextureParams::gloss_is);
+        visit("power_scale", &TextureParams::power_scale);
+        visit("power", &TextureParams::power);
+        visit("diffuse_factor", &TextureParams::diffuse_factor);
+        visit("specular_factor", &TextureParams::specular_factor);
+        visit("gloss_factor", &TextureParams::gloss_factor);
+        visit("normal_green", &TextureParams::normal_green);
+        visit("alpha_is", &TextureParams::alpha_is);
+        visit("surface", &TextureParams::surface);
+        visit("calibrate", &TextureParams::calibrate);
+        visit("dielectric_f0", &TextureParams::dielectric_f0);
+        visit("f0_tolerance", &TextureParams::f0_tolerance);
+        visit("regularise", &TextureParams::regularise);
+        visit("multiscatter", &TextureParams::multiscatter);
+        visit("packing", &TextureParams::packing);
+        visit("residual", &TextureParams::residual);
+        visit("wrap", &TextureParams::wrap);
+        visit("levels", &TextureParams::levels);
+        visit("dither", &TextureParams::dither);
+        visit("seed", &TextureParams::seed);
+        visit("maps", &TextureParams::maps);
+    }
+};
+
+}  // namespace texture
+
+template <>
+struct EnumNames<texture::Model> {
+    static constexpr std::array<std::string_view, 3> names{"specular_gloss", "blinn_phong", "phong"};
+};
+template <>
+struct EnumNames<texture::Coupling> {
+    static constexpr std::array<std::string_view, 3> names{"auto", "none", "fresnel"};
+};
+template <>
+struct EnumNames<texture::Norm> {
+    static constexpr std::array<std::string_view, 4> names{"energy", "n_plus_8", "none", "over_pi"};
+};
+template <>
+struct EnumNames<texture::Fit> {
+    static constexpr std::array<std::string_view, 4> names{"slope", "l2", "cumulative", "half_width"};
+};
+template <>
+struct EnumNames<texture::GlossIn> {
+    static constexpr std::array<std::string_view, 5> names{"auto", "gloss", "specular_alpha", "diffuse_alpha",
+                                                           "normal_alpha"};
+};
+template <>
+struct EnumNames<texture::GlossIs> {
+    static constexpr std::array<std::string_view, 6> names{"auto",  "smoothness", "perceptual_roughness",
+                                                           "alpha", "power",      "power_log2"};
+};
+template <>
+struct EnumNames<texture::Green> {
+    static constexpr std::array<std::string_view, 3> names{"auto", "up", "down"};
+};
+template <>
+struct EnumNames<texture::AlphaIs> {
+    static constexpr std::array<std::string_view, 3> names{"auto", "opacity", "nothing"};
+};
+template <>
+struct EnumNames<texture::SurfaceIs> {
+    static constexpr std::array<std::string_view, 4> names{"auto", "any", "dielectric", "metal"};
+};
+template <>
+struct EnumNames<texture::Calibrate> {
+    static constexpr std::array<std::string_view, 3> names{"auto", "none", "library"};
+};
+template <>
+struct EnumNames<texture::Packing> {
+    static constexpr std::array<std::string_view, 5> names{"gltf", "unity", "unreal", "frostbite",
+                                                           "separate"};
+};
+template <>
+struct EnumNames<texture::Wrap> {
+    static constexpr std::array<std::string_view, 2> names{"repeat", "clamp"};
+};
+template <>
+struct EnumNames<texture::ExtraMap> {
+    static constexpr std::array<std::string_view, 2> names{"confidence", "difference"};
+};
+
+}  // namespace pbrbake

@@ -1,0 +1,20 @@
+#pragma once
+// The texture baker: legacy texture sets to PBR ones, with proof of what was kept. README.md has the maths.
+
+#include "bakers/texture/params.hpp"
+
+namespace pbrbake::texture {
+
+inline constexpr int kAlgorithmVersion = 1;
+
+std::vector<Mistake> check(const TextureParams& params, const std::string& format);
+std::vector<Read> reads(const TextureParams& params);
+/// Names of the images besides the first, in order.
+std::vector<std::string> images(const TextureParams& params);
+/// Suffixes of the documents that are written.
+std::vector<std::string> documents(const TextureParams& params);
+Product bake(const TextureParams& params, const Inputs& inputs, Context& context);
+Certificate certify(const TextureParams& params, const Inputs& inputs, const Product& product,
+                    Context& context);
+
+}  // namespace pbrbake::texture

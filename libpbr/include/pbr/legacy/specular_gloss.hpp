@@ -1,0 +1,247 @@
+#pragma once
+// Diffuse and specular colour to base colour and metal mask, and back, losing neither. T is float or double.
+//
+// Both are ways to write what a surface reflects: a diffuse albedo and an f0, each a colour (`Reflected`). A
+// metallic material holds five numbers of the six,
+//
+//     diffuse = base (1 - metallic)            f0 = dielectric_f0 (1 - metallic) + base metallic
+//
+// so which metallic is meant is told by the sixth where dielectric_f0 is taken as known, and by nothing where
+// the surface is black and reflects as a dielectric does. Known converters solve the quadratic that follows
+// and jump from 0 to 1 there. Here metallic is an estimate that is continuous in its data, says how sure it
+// is, and leaves what it doesn't explain in a dielectric_f0 of any colour, so that diffuse and f0 come back
+// whatever metallic is.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "pbr/numerics/vector.hpp"
+
+namespace pbr {
+
+/// Whether the stored diffuse colour is dimmed by what the surface reflects.
+enum class DiffuseCoupling {
+    none,    ///< diffuse albedo is the stored colour: legacy shaders, Frostbite
+    fresnel  ///< times 1 - max f0 (KHR_materials_pbrSpecularGlossiness) or, of a metallic material, 1 - max
+             ///< dielectric_f0 (glTF 2.0, appendix B, and KHR_materials_specular, at normal incidence)
+};
+
+/// What a surface reflects: diffuse albedo, and reflectance at normal incidence.
+template <class T>
+struct Reflected {
+    Vec3<T> diffuse;
+    Vec3<T> f0;
+};
+
+/// A metallic material whose dielectric may be any: KHR_materials_specular and KHR_materials_ior hold it as
+/// specularColor times an ior's f0.
+template <class T>
+struct MetallicMaterial {
+    Vec3<T> base_color;
+    T metallic;
+    Vec3<T> dielectric_f0;
+};
+
+/// The largest channel.
+template <class T>
+constexpr T max_channel(const Vec3<T>& colour) {
+    return std::max(colour.x, std::max(colour.y, colour.z));
+}
+
+/// The mean of the channels.
+template <class T>
+constexpr T mean_channel(const Vec3<T>& colour) {
+    return (colour.x + colour.y + colour.z) / T(3);
+}
+
+/// What diffuse and specular colours in [0, 1] reflect. Exact to 2 roundings.
+template <class T>
+constexpr Reflected<T> reflected_from_specular(const Vec3<T>& diffuse, const Vec3<T>& specular,
+                                               DiffuseCoupling coupling) {
+    return {coupling == DiffuseCoupling::fresnel ? diffuse * (T(1) - max_channel(specular)) : diffuse,
+            specular};
+}
+
+/// The diffuse colour that reflected_from_specular turns into `reflected`; at most 1. f0 = 1 leaves no
+/// diffuse light: 0. Relative error 4 ulp / (1 - max f0).
+template <class T>
+constexpr Vec3<T> diffuse_colour(const Reflected<T>& reflected, DiffuseCoupling coupling) {
+    if (coupling == DiffuseCoupling::none) return reflected.diffuse;
+    const T rest = T(1) - max_channel(reflected.f0);
+    return rest > T(0) ? glm::min(reflected.diffuse / rest, Vec3<T>(1)) : Vec3<T>(0);
+}
+
+/// What a metallic material with members in [0, 1] reflects. Exact to 4 roundings.
+template <class T>
+constexpr Reflected<T> reflected_from_metallic(const MetallicMaterial<T>& material,
+                                               DiffuseCoupling coupling) {
+    const T dielectric = T(1) - material.metallic;
+    const T left = coupling == DiffuseCoupling::fresnel ? T(1) - max_channel(material.dielectric_f0) : T(1);
+    return {material.base_color * (dielectric * left),
+            material.dielectric_f0 * dielectric + material.base_color * material.metallic};
+}
+
+/// What is known before looking at a texel.
+template <class T>
+struct MetallicPrior {
+    T dielectric_f0 = T(.04);  ///< what dielectrics here reflect
+    T f0_tolerance =
+        T(.02);  ///< how far they may stray from it; 0: the source was made from a metallic material
+    /// How likely metal is, relative to a dielectric, where both fit; metals as dark as dielectrics hardly
+    /// exist.
+    T metal_odds = T(.01);
+};
+
+/// Half the width of the interval that each stored number stands for, in linear reflectance: what rounding to
+/// its code has lost. Less than 1e-6 is taken as 1e-6.
+template <class T>
+struct Quantisation {
+    Vec3<T> diffuse;
+    Vec3<T> f0;
+};
+
+/// A metal mask's value, and how well the data determine it.
+template <class T>
+struct MetallicEstimate {
+    T metallic;    ///< [0, 1]
+    T confidence;  ///< [0, 1]: 1 less the range of metallic that the intervals allow, less what contradicts
+};
+
+/// The metallic of channel means: the root in [0, 1] of dielectric_f0 m^2 + (diffuse + f0 - 2 dielectric_f0)
+/// m + dielectric_f0 - f0 = 0, 0 where f0 <= dielectric_f0. diffuse, f0 in [0, 1], dielectric_f0 in (0, 1).
+/// Jumps where f0 passes dielectric_f0 while diffuse < dielectric_f0: from 0 to 1 - diffuse / dielectric_f0.
+/// The relation is linear in (diffuse, f0), so any weighted mean of channels has the same root where the
+/// channels agree. Absolute error below 8 ulp / dielectric_f0.
+template <class T>
+T metallic_root(T diffuse, T f0, T dielectric_f0) {
+    const T excess = f0 - dielectric_f0;
+    if (!(excess > T(0))) return T(0);
+    const T b = diffuse + f0 - T(2) * dielectric_f0;
+    const T root = std::sqrt(b * b + T(4) * dielectric_f0 * excess);
+    // The form whose terms have one sign.
+    const T m = b > T(0) ? T(2) * excess / (b + root) : (root - b) / (T(2) * dielectric_f0);
+    return std::min(m, T(1));
+}
+
+/// A metallic estimate that is continuous in its data. The root of the channel means, times the odds that the
+/// surface isn't a dielectric after all: with x = 1/2 mean((f0 - dielectric_f0)+^2) / (quantisation^2 +
+/// f0_tolerance^2) and t = x (1 + x (1 + x)), a heavy-tailed stand-in for e^x - 1, they are metal_odds t : 1.
+/// So metallic is 0 where f0 is the dielectric's, and the root where it is far from it.
+///
+/// Confidence is 1 minus the range of the root over diffuse -+ quantisation, f0 -+ (quantisation +
+/// f0_tolerance): 0 for black with f0 = dielectric_f0; and minus what the odds took from the root. It falls
+/// as 1 / (1 + e^2), with e the worst channel's departure from the material found in units of .02 plus its
+/// interval; again with e what f0 is short of any dielectric's, in tenths of dielectric_f0; and as f0 / .02
+/// below water's f0, which no surface has. Reflectances in [0, 1]; NaN channels count as 0.
+template <class T>
+MetallicEstimate<T> estimate_metallic(const Reflected<T>& reflected, const MetallicPrior<T>& prior,
+                                      const Quantisation<T>& quantisation, DiffuseCoupling coupling) {
+    constexpr T kSharpest = T(1e-6), kWater = T(.02), kDoubt = T(.02);
+    const auto finite = [](T x) { return x > T(0) ? std::min(x, T(1)) : T(0); };
+    const T f = prior.dielectric_f0;
+    // With coupling, the base colour's own diffuse is what is left of it after the dielectric's reflection.
+    const T left = coupling == DiffuseCoupling::fresnel ? T(1) - f : T(1);
+    Vec3<T> diffuse, f0;
+    for (int c = 0; c < 3; ++c) {
+        diffuse[c] = finite(reflected.diffuse[c] / left);
+        f0[c] = finite(reflected.f0[c]);
+    }
+    const T q_diffuse = std::max(mean_channel(quantisation.diffuse) / left, kSharpest);
+    const T q_f0 = std::max(mean_channel(quantisation.f0), kSharpest);
+    const T d = mean_channel(diffuse), s = mean_channel(f0);
+
+    T squares = 0;
+    for (int c = 0; c < 3; ++c) {
+        const T excess = std::max(T(0), f0[c] - f);
+        squares += excess * excess / T(3);
+    }
+    const T x = squares / (T(2) * (q_f0 * q_f0 + prior.f0_tolerance * prior.f0_tolerance));
+    const T odds = prior.metal_odds * x * (T(1) + x * (T(1) + x));
+    const T root = metallic_root(d, s, f);
+    const T m = root * (odds / (T(1) + odds));
+
+    const T reach = q_f0 + prior.f0_tolerance;
+    const T highest = metallic_root(std::max(T(0), d - q_diffuse), s + reach, f);
+    const T lowest = metallic_root(d + q_diffuse, s - reach, f);
+    T worst = 0;
+    for (int c = 0; c < 3; ++c) {
+        const T base = diffuse[c] + f0[c] - f * (T(1) - root);
+        worst = std::max(worst, std::abs(f0[c] - f * (T(1) - root) - base * root));
+    }
+    const T departure = s > f ? worst / (kDoubt + reach) : T(0);
+    const T shortfall = std::max(T(0), f - reach - s) / (T(.1) * f);
+    const T plausible = std::min(T(1), s / kWater) / (T(1) + shortfall * shortfall);
+    const T told = std::max(T(0), T(1) - (highest - lowest) - (root - m));
+    return {m, told * plausible / (T(1) + departure * departure)};
+}
+
+/// Metallic material of a given metallic that reflects `reflected`. Its diffuse light is brought towards that
+/// of the base colour which explains f0 with the given dielectric_f0, but by no more than
+/// `diffuse_tolerance`; the material's dielectric_f0 is what of f0 the base colour then leaves. So f0 is
+/// exact and diffuse within the tolerance where such a material exists with members in [0, 1]; else f0 comes
+/// first. metallic in [0, 1]; 1 has base_color = f0 and the given dielectric_f0. Absolute error of both below
+/// 32 ulp of 1, besides the tolerance, where one exists. Continuous in all arguments.
+template <class T>
+MetallicMaterial<T> material_with_residual(const Reflected<T>& reflected, T metallic, T dielectric_f0,
+                                           const Vec3<T>& diffuse_tolerance, DiffuseCoupling coupling) {
+    const T rest = T(1) - metallic;
+    if (!(rest > T(0))) return {reflected.f0, T(1), Vec3<T>(dielectric_f0)};
+    const bool coupled = coupling == DiffuseCoupling::fresnel;
+    const T usual_left = coupled ? T(1) - dielectric_f0 : T(1);
+    Vec3<T> diffuse = reflected.diffuse;
+    for (int c = 0; metallic > T(0) && c < 3; ++c) {
+        const T base = std::clamp((reflected.f0[c] - dielectric_f0 * rest) / metallic, T(0), T(1));
+        const T ideal = base * rest * usual_left;
+        diffuse[c] = std::clamp(ideal, std::max(T(0), diffuse[c] - diffuse_tolerance[c]),
+                                diffuse[c] + diffuse_tolerance[c]);
+    }
+    // With coupling, left = 1 - max dielectric_f0, and dielectric_f0 = (f0 - metallic diffuse / (rest left))
+    // / rest: a quadratic a channel, and the smallest root is the one that all channels allow.
+    T left = T(1);
+    for (int c = 0; coupled && c < 3; ++c) {
+        const T b = T(1) - reflected.f0[c] / rest, q = metallic * diffuse[c] / (rest * rest);
+        const T root = std::sqrt(b * b + T(4) * q);
+        left = std::min(left, b > T(0) ? (b + root) / T(2) : q > T(0) ? T(2) * q / (root - b) : T(0));
+    }
+    MetallicMaterial<T> material{Vec3<T>(0), metallic, Vec3<T>(dielectric_f0)};
+    for (int c = 0; c < 3; ++c) {
+        const T f0 = reflected.f0[c];
+        const T wanted = left > T(0) ? diffuse[c] / (rest * left) : T(0);
+        const T lowest = metallic > T(0) ? std::max(T(0), (f0 - rest) / metallic) : T(0);
+        const T highest = metallic > T(0) ? std::min(T(1), f0 / metallic) : T(1);
+        const T base = std::clamp(wanted, std::min(lowest, highest), highest);
+        material.base_color[c] = base;
+        material.dielectric_f0[c] = std::clamp((f0 - base * metallic) / rest, T(0), T(1));
+    }
+    return material;
+}
+
+/// The same for targets that hold a grey dielectric_f0 up to `largest_f0`, 0 for none but the prior's own:
+/// base colour by least squares of diffuse and f0, every channel alike. Continuous in all arguments.
+template <class T>
+MetallicMaterial<T> material_without_residual(const Reflected<T>& reflected, T metallic, T dielectric_f0,
+                                              T largest_f0, DiffuseCoupling coupling) {
+    const T rest = T(1) - metallic, weight = rest * rest + metallic * metallic;
+    MetallicMaterial<T> material{Vec3<T>(0), metallic, Vec3<T>(dielectric_f0)};
+    constexpr int kTurns = 3;
+    for (int turn = 0; turn < kTurns; ++turn) {
+        const T f = material.dielectric_f0.x;
+        const T left = coupling == DiffuseCoupling::fresnel ? T(1) - f : T(1);
+        T unexplained = 0;
+        for (int c = 0; c < 3; ++c) {
+            const T from_diffuse = left > T(0) ? reflected.diffuse[c] / left : T(0);
+            const T base = (rest * from_diffuse + metallic * (reflected.f0[c] - f * rest)) / weight;
+            material.base_color[c] = std::clamp(base, T(0), T(1));
+            unexplained += (reflected.f0[c] - material.base_color[c] * metallic) / T(3);
+        }
+        if (largest_f0 <= T(0)) break;
+        // Of a metal's texel nothing is left to tell its dielectric by.
+        const T told = rest * rest / (rest * rest + T(1e-3));
+        const T found = rest > T(0) ? std::clamp(unexplained / rest, T(0), largest_f0) : dielectric_f0;
+        material.dielectric_f0 = Vec3<T>(dielectric_f0 + (found - dielectric_f0) * told);
+    }
+    return material;
+}
+
+}  // namespace pbr

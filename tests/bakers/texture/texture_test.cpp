@@ -1,0 +1,356 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+
+#include "bakers/texture/calibrate.hpp"
+#include "pbr/legacy/exponent.hpp"
+#include "pbr/legacy/phong.hpp"
+#include "pbr/legacy/specular_gloss.hpp"
+#include "pbr/numerics/sequence.hpp"
+#include "tests/bakers/texture/fixtures.hpp"
+
+namespace pbrbake::texture::test {
+namespace {
+
+constexpr auto kFresnel = pbr::DiffuseCoupling::fresnel;
+
+/// A metallic material a texel: corners, gradients and noise.
+pbr::MetallicMaterial<float> truth(int x, int y, int size) {
+    const auto random = [&](int channel) {
+        return static_cast<float>(
+            pbr::random_unit(static_cast<std::uint64_t>(channel), static_cast<std::uint64_t>(y * size + x)));
+    };
+    const float last = static_cast<float>(size - 1), u = static_cast<float>(x) / last,
+                v = static_cast<float>(y) / last;
+    if (y < size / 2) return {Colour(u), std::min(1.f, 2 * v), Colour(.04f)};
+    return {Colour(random(1), random(2), random(3)), random(4) < .5f ? std::round(random(5)) : random(5),
+            Colour(.04f)};
+}
+
+Inputs specular_gloss_set(int size, int bits) {
+    Inputs inputs;
+    inputs["diffuse"] = source(size, size, 3, bits, [&](int x, int y) {
+        const auto d =
+            pbr::diffuse_colour(pbr::reflected_from_metallic(truth(x, y, size), kFresnel), kFresnel);
+        return Rgba{d.x, d.y, d.z, 1};
+    });
+    inputs["specular"] = source(size, size, 4, bits, [&](int x, int y) {
+        const auto s = pbr::reflected_from_metallic(truth(x, y, size), kFresnel).f0;
+        return Rgba{s.x, s.y, s.z, static_cast<float>(x) / static_cast<float>(size - 1)};
+    });
+    return inputs;
+}
+
+TEST(Texture, RoundTripsMetallicSetsThroughSpecularGloss) {
+    TextureParams params = defaults();
+    params.f0_tolerance = 0;
+    for (const auto& [bits, pixel, largest] :
+         {std::tuple(0, PixelType::float32, 1e-4), std::tuple(16, PixelType::float32, 1e-4),
+          std::tuple(8, PixelType::unorm16, 1. / 255)}) {
+        SCOPED_TRACE(bits);
+        const Baked baked = bake_set(params, specular_gloss_set(64, bits), pixel);
+        EXPECT_LE(baked.figure("diffuse_max_error"), largest);
+        EXPECT_LE(baked.figure("f0_max_error"), largest);
+        EXPECT_LE(baked.figure("energy_error"), largest);
+        EXPECT_EQ(baked.product.scale, 1);
+    }
+}
+
+TEST(Texture, StoresEightBitsWithinACodeOrTwo) {
+    TextureParams params = defaults();
+    params.f0_tolerance = 0;
+    const Baked baked = bake_set(params, specular_gloss_set(64, 8), PixelType::unorm8);
+    EXPECT_LE(baked.figure("energy_error"), .02);
+    EXPECT_LE(baked.figure("delta_e_mean"), 1);
+}
+
+TEST(Texture, MetallicReturnsWhereTheDataTellIt) {
+    TextureParams params = defaults();
+    params.f0_tolerance = 0;
+    params.maps = {ExtraMap::confidence};
+    const Baked baked = bake_set(params, specular_gloss_set(64, 0), PixelType::float32);
+    double error = 0, count = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            if (*baked.image("confidence").texel(0, 0, y, x) < .5f) continue;
+            error += std::abs(
+                static_cast<double>(baked.image("orm").texel(0, 0, y, x)[2] - truth(x, y, 64).metallic));
+            ++count;
+        }
+    EXPECT_GT(count, 64 * 64 * .8);
+    EXPECT_LT(error / count, 1e-3);
+}
+
+TEST(Texture, BytesDoNotDependOnThreads) {
+    TextureParams params = defaults();
+    params.levels = 0;
+    params.dither = true;
+    params.maps = {ExtraMap::confidence, ExtraMap::difference};
+    const Inputs inputs = specular_gloss_set(61, 8);
+    const Baked one = bake_set(params, inputs, PixelType::unorm8, 1),
+                three = bake_set(params, inputs, PixelType::unorm8, 3);
+    for (std::size_t i = 0; i < one.product.images.size(); ++i)
+        for (std::size_t l = 0; l < one.product.images[i].levels.size(); ++l)
+            EXPECT_EQ(one.product.images[i].levels[l].texels, three.product.images[i].levels[l].texels);
+    EXPECT_EQ(one.figure("delta_e_mean"), three.figure("delta_e_mean"));
+}
+
+TEST(Texture, BlinnPhongKeepsEnergyAndReportsWhatItCannot) {
+    TextureParams params = defaults();
+    params.model = Model::blinn_phong;
+    params.calibrate = Calibrate::none;
+    params.gloss = "set_g.png";
+    params.gloss_is = GlossIs::power_log2;
+    params.power_scale = 16.6;  // up to 1e5
+    for (const Norm norm : {Norm::energy, Norm::n_plus_8, Norm::none, Norm::over_pi}) {
+        SCOPED_TRACE(enum_name(norm));
+        params.norm = norm;
+        double worst_ks = 1;
+        for (int x = 0; x < 64; ++x)  // ks albedo <= .9
+            worst_ks =
+                std::min(worst_ks, .9 / pbr::phong_albedo(static_cast<pbr::PhongNorm>(norm),
+                                                          pbr::PhongLobe::blinn, std::exp2(16.6 * x / 63))
+                                            .normal);
+        Inputs inputs;
+        inputs["diffuse"] = source(64, 16, 3, 0, [](int, int) { return Rgba{0, 0, 0, 1}; });
+        inputs["specular"] = source(64, 16, 3, 0, [&](int, int y) {
+            const auto ks = static_cast<float>(worst_ks * (y + 1) / 16);
+            return Rgba{ks, ks, ks, 1};
+        });
+        inputs["gloss"] = source(64, 16, 3, 0, [](int x, int) {
+            const auto g = static_cast<float>(x / 63.);
+            return Rgba{g, g, g, 1};
+        });
+        EXPECT_LE(bake_set(params, inputs, PixelType::float32).figure("energy_error"), .02);
+        EXPECT_EQ(bake_set(params, inputs, PixelType::float32).figure("f0_clamped"), 0);
+    }
+    params.norm = Norm::none;  // n = 1 .. reflects up to 2.5 times what arrives
+    Inputs inputs;
+    inputs["diffuse"] = source(8, 8, 3, 0, [](int, int) { return Rgba{0, 0, 0, 1}; });
+    inputs["specular"] = source(8, 8, 3, 0, [](int, int) { return Rgba{1, 1, 1, 1}; });
+    inputs["gloss"] = source(8, 8, 3, 0, [](int x, int) { return Rgba{x < 4 ? 0.f : 1.f, 0, 0, 1}; });
+    const Baked baked = bake_set(params, inputs, PixelType::float32);
+    EXPECT_EQ(baked.figure("f0_clamped"), .5);
+    EXPECT_THAT(baked.product.warnings, testing::Contains(testing::HasSubstr("50 % of texels")));
+}
+
+TEST(Texture, ExponentOfFiftyIsNotWhatConvertersMakeOfIt) {
+    TextureParams params = defaults();
+    params.model = Model::blinn_phong;
+    params.power = 50;
+    Inputs inputs = specular_gloss_set(4, 8);
+    inputs["specular"].image.channels.pop_back();
+    inputs["specular"] = source(4, 4, 3, 8, [](int, int) { return Rgba{.1f, .1f, .1f, 1}; });
+    const Baked baked = bake_set(params, inputs, PixelType::float32);
+    EXPECT_NEAR(baked.image("orm").texel(0, 0, 0, 0)[1], .443, .001);
+}
+
+TEST(Texture, TakesUnequalOddAndSingleTexelMaps) {
+    TextureParams params = defaults();
+    params.normal = "set_n.png";
+    params.occlusion = "set_ao.png";
+    params.levels = 0;
+    Inputs inputs;
+    inputs["diffuse"] = source(7, 5, 3, 8, [](int, int) { return Rgba{.5f, .4f, .3f, 1}; });
+    inputs["specular"] = source(1, 1, 3, 8, [](int, int) { return Rgba{.04f, .04f, .04f, 1}; });
+    inputs["normal"] = source(14, 3, 3, 0, [](int, int) { return Rgba{.5f, .5f, 1, 1}; });
+    inputs["occlusion"] = source(2, 2, 3, 0, [](int x, int) { return Rgba{static_cast<float>(x), 0, 0, 1}; });
+    const Baked baked = bake_set(params, inputs, PixelType::unorm8);
+    EXPECT_EQ(baked.set()["size"], Json({14, 5}));
+    EXPECT_EQ(baked.product.images[0].levels.size(), 4u);
+    EXPECT_EQ(baked.product.images[0].levels.back().width, 1);
+    for (const Image& image : baked.product.images)
+        for (const Level& level : image.levels)
+            for (const float value : level.texels) EXPECT_TRUE(value >= 0 && value <= 1) << image.name;
+    EXPECT_LT(baked.figure("energy_error"), .02);
+    EXPECT_EQ(baked.product.warnings.size(), 5u);  // four sizes, and no gloss
+}
+
+TEST(Texture, LevelsKeepMeansAndTurnBumpsIntoRoughness) {
+    TextureParams params = defaults();
+    params.normal = "set_n.png";
+    params.levels = 0;
+    params.normal_green = Green::up;
+    Inputs inputs;
+    inputs["diffuse"] = source(16, 16, 3, 0, [](int x, int) {
+        return x % 2 ? Rgba{.8f, .1f, .1f, 1} : Rgba{.2f, .5f, .1f, 1};
+    });
+    inputs["specular"] = source(16, 16, 4, 0, [](int, int y) {
+        return Rgba{.04f, .04f, .04f, y < 8 ? .9f : .901f};
+    });
+    inputs["normal"] = source(16, 16, 3, 0, [](int x, int) {
+        const float tilt = x % 2 ? .3f : -.3f, z = std::sqrt(1 - tilt * tilt);
+        return Rgba{tilt * .5f + .5f, .5f, z * .5f + .5f, 1};
+    });
+    const Baked baked = bake_set(params, inputs, PixelType::float32);
+    const Image& base = baked.image("base_color");
+    EXPECT_NEAR(base.texel(4, 0, 0, 0)[0], .5, 1e-4);
+    EXPECT_NEAR(base.texel(4, 0, 0, 0)[1], .3, 1e-4);
+    const double slope2 = .09 / .91,
+                 alpha = std::sqrt(1e-4 + slope2);  // variance along x alone, alpha^2 + 2 s^2 / 2
+    EXPECT_NEAR(baked.image("orm").texel(1, 0, 0, 0)[1], std::sqrt(alpha), 2e-3);
+    EXPECT_NEAR(baked.image("normal").texel(4, 0, 0, 0)[2], 1, 1e-5);
+}
+
+TEST(Texture, FindsOutWhichWayGreenPoints) {
+    for (const bool is_down : {false, true}) {
+        TextureParams params = defaults();
+        params.normal = "set_n.png";
+        Inputs inputs = specular_gloss_set(64, 8);
+        inputs["normal"] = source(64, 64, 3, 0, [&](int x, int y) {
+            // Slopes of h = sin(x / 5 + y / 7) + sin(x / 9 - y / 4), y up.
+            const double a = std::cos(x / 5. - y / 7.), b = std::cos(x / 9. + y / 4.);
+            const double sx = .3 * (a / 5 + b / 9), sy = .3 * (a / 7 - b / 4),
+                         l = std::sqrt(1 + sx * sx + sy * sy);
+            return Rgba{static_cast<float>(.5 - .5 * sx / l),
+                        static_cast<float>(.5 - (is_down ? -.5 : .5) * sy / l),
+                        static_cast<float>(.5 + .5 / l), 1};
+        });
+        const Baked baked = bake_set(params, inputs, PixelType::unorm8);
+        EXPECT_EQ(baked.set()["normal_green"], is_down ? "down" : "up");
+        EXPECT_GT(std::abs(baked.set()["green_correlation"].get<double>()), .9);
+    }
+}
+
+TEST(Texture, AlphaIsGlossOpacityOrNothing) {
+    TextureParams params = defaults();
+    Inputs inputs = specular_gloss_set(16, 8);
+    EXPECT_EQ(bake_set(params, inputs, PixelType::unorm8).product.images[0].channel_count(), 3);
+    inputs["diffuse"] = source(16, 16, 4, 8, [](int x, int) {
+        return Rgba{.5f, .5f, .5f, static_cast<float>(x) / 15};
+    });
+    const Baked baked = bake_set(params, inputs, PixelType::float32);
+    EXPECT_EQ(baked.set()["diffuse_alpha"], "opacity");
+    EXPECT_EQ(baked.product.images[0].channel_count(), 4);
+    EXPECT_NEAR(baked.product.images[0].texel(0, 0, 0, 15)[3], 1, 1e-6);
+    EXPECT_NEAR(baked.image("orm").texel(0, 0, 0, 15)[1], 0, 1e-3);  // gloss 1 in the alpha of specular
+    params.alpha_is = AlphaIs::nothing;
+    EXPECT_EQ(bake_set(params, inputs, PixelType::unorm8).product.images[0].channel_count(), 3);
+    params.gloss_in = GlossIn::gloss;
+    EXPECT_THROW(bake_set(params, inputs, PixelType::unorm8), Error);
+}
+
+TEST(Texture, EveryPackingHoldsTheSet) {
+    Inputs inputs;
+    inputs["diffuse"] = source(32, 32, 3, 8, [](int x, int y) {
+        return Rgba{static_cast<float>(x) / 40 + .1f, static_cast<float>(y) / 40 + .1f, .3f, 1};
+    });
+    inputs["specular"] = source(32, 32, 4, 8, [](int x, int) {
+        return Rgba{.04f, .04f, .04f, static_cast<float>(x) / 31};
+    });
+    for (const Packing packing :
+         {Packing::gltf, Packing::unity, Packing::unreal, Packing::frostbite, Packing::separate}) {
+        SCOPED_TRACE(enum_name(packing));
+        TextureParams params = defaults();
+        params.packing = packing;
+        const Baked baked = bake_set(params, inputs, PixelType::unorm16);
+        EXPECT_LT(baked.figure("energy_error"), 2e-3);
+        EXPECT_LT(baked.figure("delta_e_max"), 1.5);
+        std::vector<std::string> named = images(params);
+        ASSERT_EQ(baked.product.images.size(), named.size() + 1);
+        for (std::size_t i = 0; i < named.size(); ++i) EXPECT_EQ(baked.product.images[i + 1].name, named[i]);
+    }
+}
+
+TEST(Texture, NamesTellSurfaces) {
+    EXPECT_FALSE(surface_word("maps/Concrete01_d.png")->is_metal);
+    EXPECT_TRUE(surface_word("steel/rusty-IRON2.tga")->is_metal);
+    EXPECT_EQ(surface_word("steel/wall_d.png"), nullptr);
+    EXPECT_EQ(surface_word("ironic_d.png"), nullptr);
+    EXPECT_EQ(surface_word(""), nullptr);
+}
+
+TEST(Texture, ConcreteIsNoMetalAndSteelIsHoweverTheirSpecularWasPainted) {
+    for (const auto& [file, metallic] : {std::pair("concrete01_d.png", 0.), std::pair("steel_d.png", 1.)}) {
+        TextureParams params = defaults();
+        params.model = Model::blinn_phong;
+        params.power = 30;
+        params.diffuse = file;
+        Inputs inputs;
+        inputs["diffuse"] = source(16, 16, 3, 8, [](int x, int) {
+            return Rgba{.1f + static_cast<float>(x) * .01f, .1f, .1f, 1};
+        });
+        inputs["specular"] = source(16, 16, 3, 8, [](int, int y) {
+            return Rgba{.3f, .3f + static_cast<float>(y) * .01f, .3f, 1};
+        });
+        const Baked baked = bake_set(params, inputs, PixelType::unorm8);
+        EXPECT_EQ(baked.set()["mean_metallic"], metallic) << file;
+    }
+}
+
+TEST(Texture, MistakesAreNamed) {
+    TextureParams params = defaults();
+    params.diffuse = params.specular = "";
+    ASSERT_EQ(check(params, "png").size(), 1u);
+    params = defaults();
+    params.levels = 0;
+    EXPECT_EQ(check(params, "png").front().pointer, "/levels");
+    EXPECT_TRUE(check(params, "ktx2").empty());
+    EXPECT_EQ(check(defaults(), "hdr").front().pointer, "/format");
+    params.levels = 1;
+    params.model = Model::phong;
+    params.gloss = "g.png";
+    EXPECT_EQ(check(params, "png").front().pointer, "/gloss_is");
+}
+
+/// Every eighth texel of a file, each way.
+SourceImage thinned(const std::filesystem::path& path, const std::string& colour_space) {
+    SourceImage file = io::read_source({path, colour_space});
+    const Image image = std::move(file.image);
+    SourceImage small =
+        source(image.levels[0].width / 8, image.levels[0].height / 8, 3, 0, [&](int x, int y) {
+            const float* texel = image.texel(0, 0, 8 * y, 8 * x);
+            return Rgba{texel[0], texel[1], texel[2], 1};
+        });
+    return small;
+}
+
+TEST(TextureRealFiles, BoomBoxReturnsThroughSpecularGlossInFloat) {
+    const char* data = std::getenv("PBRBAKE_SHARED_DATA");
+    if (!data) GTEST_SKIP() << "no shared data: set PBRBAKE_SHARED_DATA to its folder";
+    const std::filesystem::path folder = std::filesystem::path(data) / "legacy/gltf_specgloss/BoomBox";
+    const SourceImage base = thinned(folder / "BoomBox_baseColor.png", "srgb");
+    const SourceImage orm = thinned(folder / "BoomBox_roughnessMetallic.png", "raw");
+    const int width = base.image.levels[0].width, height = base.image.levels[0].height;
+    const auto material = [&](int x, int y) {
+        const float* b = base.image.texel(0, 0, y, x);
+        return pbr::MetallicMaterial<float>{Colour(b[0], b[1], b[2]), orm.image.texel(0, 0, y, x)[2],
+                                            Colour(.04f)};
+    };
+    Inputs inputs;
+    inputs["diffuse"] = source(width, height, 3, 0, [&](int x, int y) {
+        const auto d = pbr::diffuse_colour(pbr::reflected_from_metallic(material(x, y), kFresnel), kFresnel);
+        return Rgba{d.x, d.y, d.z, 1};
+    });
+    inputs["specular"] = source(width, height, 4, 0, [&](int x, int y) {
+        const auto s = pbr::reflected_from_metallic(material(x, y), kFresnel).f0;
+        return Rgba{s.x, s.y, s.z, 1 - orm.image.texel(0, 0, y, x)[1]};
+    });
+    TextureParams params = defaults();
+    params.f0_tolerance = 0;
+    params.maps = {ExtraMap::confidence};
+    const Baked baked = bake_set(params, inputs, PixelType::float32);
+    EXPECT_LE(baked.figure("diffuse_max_error"), 1e-4);
+    EXPECT_LE(baked.figure("f0_max_error"), 1e-4);
+    double told = 0, told_error = 0, error = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double off = std::abs(
+                static_cast<double>(baked.image("orm").texel(0, 0, y, x)[2] - material(x, y).metallic));
+            error += off;
+            if (*baked.image("confidence").texel(0, 0, y, x) < .5f) continue;
+            told_error += off;
+            ++told;
+        }
+    RecordProperty("mean_metallic_error", std::to_string(error / width / height));
+    RecordProperty("told_share", std::to_string(told / width / height));
+    RecordProperty("told_error", std::to_string(told_error / told));
+    EXPECT_LT(told_error / told, 1e-3);
+    EXPECT_LT(error / width / height, .01);
+}
+
+}  // namespace
+}  // namespace pbrbake::texture::test

@@ -1,0 +1,95 @@
+// Texture sets through the program: files in, files out, exit codes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bakers/job/json_text.hpp"
+#include "bakers/job/schema.hpp"
+#include "tests/cli/program.hpp"
+
+namespace pbrbake::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A TGA of one colour and alpha, 32 bits, top row first.
+std::string targa(int width, int height, int red, int green, int blue, int alpha) {
+    std::string file(18, '\0');
+    file[2] = 2;
+    file[12] = static_cast<char>(width);
+    file[14] = static_cast<char>(height);
+    file[16] = 32;
+    file[17] = 0x28;
+    for (int i = 0; i < width * height; ++i)
+        for (const int value : {blue, green, red, (i % 2) * alpha}) file += static_cast<char>(value);
+    return file;
+}
+
+void expect_valid_sidecar(const fs::path& document) {
+    const fs::path file = fs::path(PBRBAKE_SOURCE_DIR) / "schemas/sidecar.schema.json";
+    const job::Schema schema(job::parse_json(job::read_text(file), file.string()));
+    for (const Mistake& mistake :
+         schema.mistakes(job::parse_json(job::read_text(document), document.string())))
+        ADD_FAILURE() << mistake.pointer << ": " << mistake.message;
+}
+
+TEST(TextureCommand, WritesASetInEveryFormatThatHoldsIt) {
+    const TemporaryFolder folder;
+    const fs::path diffuse = folder.write("wall_d.tga", targa(8, 8, 120, 110, 100, 255));
+    const fs::path specular = folder.write("wall_s.tga", targa(8, 8, 56, 56, 56, 200));
+    for (const char* extension : {"exr", "ktx2", "dds", "png"}) {
+        SCOPED_TRACE(extension);
+        const fs::path product = diffuse.parent_path() / (std::string("out.") + extension);
+        const Outcome outcome =
+            run_program({"texture", "--diffuse", diffuse, "--specular", specular, "--levels",
+                         extension == std::string("png") ? "1" : "0", "-o", product});
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        expect_valid_sidecar(product.string() + ".json");
+        const Json record = job::parse_json(job::read_text(product.string() + ".json"), "record");
+        EXPECT_EQ(record["pixel"], extension == std::string("exr") ? "half" : "unorm8");
+        EXPECT_EQ(record["outputs"].size(), 4u);  // base colour, orm, specular, material
+        EXPECT_EQ(record["set"]["diffuse_alpha"], "opacity");
+        EXPECT_LE(record["certificate"]["headline"]["value"].get<double>(), .02);
+        EXPECT_EQ(
+            run_program({"inspect", diffuse.parent_path() / (std::string("out_orm.") + extension)}).code, 0);
+    }
+}
+
+TEST(TextureCommand, RefusesToWriteOverItsSources) {
+    const TemporaryFolder folder;
+    const fs::path normal = folder.write("wall_normal.tga", targa(4, 4, 128, 128, 255, 255));
+    const fs::path diffuse = folder.write("d.tga", targa(4, 4, 90, 90, 90, 255));
+    folder.write("wall_normal.png", "");
+    const Outcome outcome =
+        run_program({"texture", "--diffuse", diffuse, "--normal", normal.parent_path() / "wall_normal.png",
+                     "-o", normal.parent_path() / "wall.png"});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("would write wall_normal.png over the source of bake"));
+}
+
+TEST(TextureCommand, NamesWhatIsMissingOrMalformed) {
+    const TemporaryFolder folder;
+    const fs::path good = folder.write("d.tga", targa(4, 4, 90, 90, 90, 255));
+    const fs::path cut = folder.write("cut.tga", targa(64, 64, 9, 9, 9, 9).substr(0, 300));
+    const fs::path text = folder.write("text.png", "hello");
+    const fs::path out = good.parent_path() / "out.png";
+    Outcome outcome = run_program({"texture", "-o", out});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("--diffuse: missing, and specular too"));
+    outcome = run_program({"texture", "--diffuse", good, "--levels", "3", "-o", out});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("--levels: found 3, but png holds one level"));
+    for (const fs::path& bad : {cut, text, good.parent_path() / "none.png"}) {
+        outcome = run_program({"texture", "--diffuse", good, "--specular", bad, "-o", out});
+        EXPECT_EQ(outcome.code, 4) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(bad.filename().string()));
+        EXPECT_FALSE(fs::exists(out));
+    }
+    outcome = run_program({"texture", "--diffuse", good, "--gloss-in", "gloss", "-o", out});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("gloss_in: found \"gloss\", but that map is absent"));
+}
+
+}  // namespace
+}  // namespace pbrbake::test
