@@ -5,7 +5,7 @@
 
 namespace pbrbake::probe {
 
-inline constexpr int kAlgorithmVersion = 2;
+inline constexpr int kAlgorithmVersion = 3;
 
 std::vector<Mistake> check(const ProbeParams& params, const std::string& format);
 std::vector<Read> reads(const ProbeParams& params);
