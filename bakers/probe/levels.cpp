@@ -141,6 +141,7 @@ Json solve_levels(const ProbeParams& params, const Method& method, const Environ
         notes.push_back({{"bands", level->bands()},
                          {"truncation_error", level->truncation_error()},
                          {"bright_texels_apart", harmonic.bright_texels()}});
+        if (level->near_radius() > 0) notes.back()["near_radius_rad"] = level->near_radius();
         return [level](int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb) {
             std::vector<glm::dvec3> directions;
             for (const pbr::CubeTexel& texel : texels)

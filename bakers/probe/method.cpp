@@ -27,7 +27,7 @@ Method method_of(const ProbeParams& params, const Accuracy& accuracy) {
         return {Integrator::fis, max_error,
                 "level 1 would need harmonics of degree " + std::to_string(bands) + ", above " +
                     std::to_string(kMostBands)};
-    return {Integrator::harmonic, max_error, "degree " + std::to_string(bands) + " resolves level 1"};
+    return {Integrator::harmonic, max_error, "harmonics reach the accuracy on every level"};
 }
 
 int samples_of_level(const ProbeParams& params, const Accuracy& accuracy, int level) {

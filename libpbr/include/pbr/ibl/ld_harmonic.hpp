@@ -42,6 +42,9 @@ class LdHarmonic {
         /// The highest degree kept.
         int bands() const { return bands_; }
 
+        /// Radius in radians within which texels are summed one by one; 0 if harmonics do all.
+        double near_radius() const { return near_ ? near_->radius() : 0; }
+
         /// Root mean square, over the mean, of what the degrees above bands() held, by Parseval's theorem on
         /// the degrees that were analysed.
         double truncation_error() const { return truncation_error_; }

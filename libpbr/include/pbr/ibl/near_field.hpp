@@ -31,6 +31,9 @@ class NearField {
     /// company of directions.
     std::uint64_t add(std::span<const glm::dvec3> directions, std::span<double> rgb) const;
 
+    /// Of the near part, radians.
+    double radius() const { return radius_; }
+
     /// Of one rule: points within all rows, and within all columns twice over so that none wraps.
     struct Points {
         int order;
