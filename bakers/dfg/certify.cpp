@@ -18,10 +18,17 @@ namespace {
 
 constexpr int kViewsARow = 16;  // checked together: the quadrature is vectorised over views
 
-const pbr::DfgMethod& truth() {
-    static const pbr::DfgMethod method = pbr::DfgMethod::quadrature(1e-8);
-    return method;
+/// How the table was baked, and what stands for the truth: exact enough for the errors that are looked for,
+/// so that looking costs no more than the bake.
+struct Methods {
+    pbr::DfgMethod baked, truth;
+};
+
+Methods methods_of(const DfgParams& params, const Accuracy& accuracy) {
+    return {method_of(params, accuracy),
+            pbr::DfgMethod::quadrature(std::max(quadrature_error(accuracy) / 100, 1e-8))};
 }
+constexpr const char* kAgainst = " against quadrature to a hundredth of the accuracy, or to 1e-8";
 
 struct TexelErrors {
     double integration = 0;   ///< of the method, before storage
@@ -34,14 +41,13 @@ struct TexelErrors {
     }
 };
 
-TexelErrors texel_errors(const DfgParams& params, const Product& product, int y,
+TexelErrors texel_errors(const DfgParams& params, const Methods& methods, const Product& product, int y,
                          const std::vector<int>& columns, Context& context) {
     std::vector<double> across;
     for (const int x : columns) across.push_back(value_of_column(params, x));
     const double down = value_of_row(params, y);
-    const pbr::DfgMethod method = method_of(params, context.accuracy());
-    const Columns exact = Row(params, truth(), down, across, context, "certify.").evaluate();
-    const Columns baked = Row(params, method, down, across, context, "certify.").evaluate();
+    const Columns exact = Row(params, methods.truth, down, across, context, "certify.").evaluate();
+    const Columns baked = Row(params, methods.baked, down, across, context, "certify.").evaluate();
     TexelErrors errors;
     for (std::size_t c = 0; c < exact.size(); ++c)
         for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -53,20 +59,19 @@ TexelErrors texel_errors(const DfgParams& params, const Product& product, int y,
 }
 
 /// Evaluations that each of the two checks can afford, so that together they cost about what the bake did.
-double affordable_views(const DfgParams& params, const Context& context) {
-    const pbr::DfgMethod method = method_of(params, context.accuracy());
+double affordable_views(const DfgParams& params, const Methods& methods) {
     double baked = 0, exact = 0;  // evaluations of a row
     for (int x = 0; x < params.width(); ++x) {
         const double across = std::max(0.0, value_of_column(params, x));  // NoL of subsurface is negative too
-        baked += method.evaluations(across);
-        exact += truth().evaluations(across);
+        baked += methods.baked.evaluations(across);
+        exact += methods.truth.evaluations(across);
     }
     return baked / exact * params.width() * params.height() / 2;
 }
 
 /// Errors at texels: all of them, or some chosen by hash, the hard corner always among them.
-TexelErrors texel_errors(const DfgParams& params, const Product& product, bool all, int rows,
-                         std::uint64_t seed, Context& context) {
+TexelErrors texel_errors(const DfgParams& params, const Methods& methods, const Product& product, bool all,
+                         int rows, std::uint64_t seed, Context& context) {
     const int width = params.width(), height = params.height();
     const int smoothest = params.flip_rows ? height - 1 : 0;
     std::vector<TexelErrors> found(rows);
@@ -80,7 +85,11 @@ TexelErrors texel_errors(const DfgParams& params, const Product& product, bool a
                     columns[k] =
                         static_cast<int>(pbr::random_bits(seed, 2, i, k) % static_cast<unsigned>(width));
             const int hashed = static_cast<int>(pbr::random_bits(seed, 1, i) % static_cast<unsigned>(height));
-            found[i] = texel_errors(params, product, all ? i : i == 0 ? smoothest : hashed, columns, context);
+            found[i] = texel_errors(params, methods, product,
+                                    all      ? i
+                                    : i == 0 ? smoothest
+                                             : hashed,
+                                    columns, context);
         }
     });
     TexelErrors worst;
@@ -102,10 +111,10 @@ void add_fits(std::vector<Figure>& figures, DfgParams params, Context& context) 
     const Range smoothest = down(params);
     std::vector<double> NoV;
     for (int x = 0; x < kGrid; ++x) NoV.push_back(x / (kGrid - 1.0));
+    const pbr::DfgMethod method = pbr::DfgMethod::quadrature(1e-3);  // fits are off by .1 and more
     double karis = 0, lazarov = 0;
     for (int y = 0; y < kGrid; ++y) {
         const double p = smoothest.lowest + (1 - smoothest.lowest) * y / (kGrid - 1.0);
-        const pbr::DfgMethod method = pbr::DfgMethod::quadrature(1e-3);  // fits are off by .1 and more
         const Columns exact = Row(params, method, p, NoV, context, "certify.").evaluate();
         const auto error = [&](const ScaleBias& fit, int x) {
             return std::max(std::abs(fit.scale - exact[0][x]), std::abs(fit.bias - exact[1][x]));
@@ -145,35 +154,37 @@ Certificate certify(const DfgParams& asked, const Inputs&, const Product& produc
 
     // A stated max_error is held against every texel: the largest of some would be a lower bound.
     const bool all = context.certify_fully() || accuracy.stated();
-    const double views = affordable_views(params, context);
+    const Methods methods = methods_of(params, accuracy);
+    const double views = affordable_views(params, methods);
     const int rows = all ? params.height() : static_cast<int>(std::clamp(views / kViewsARow, 2.0, 64.0));
-    const TexelErrors texels = texel_errors(params, product, all, rows, seed, context);
+    const TexelErrors texels = texel_errors(params, methods, product, all, rows, seed, context);
     const std::string where = all ? "at every texel"
                                   : "at " + std::to_string(rows * kViewsARow) +
                                         " texels chosen by hash, the smoothest row and the grazing side "
                                         "among them; the largest found, so a lower bound";
-    add(figure("integration_error", texels.integration, all, "before storage, against quadrature to 1e-8",
+    add(figure("integration_error", texels.integration, all, std::string("before storage,") + kAgainst,
                where));
     add(figure("quantisation_error", texels.quantisation, all, "stored values against those before storage",
                where));
     const Figure total =
-        figure("max_abs_error", texels.total, all, "stored values against quadrature to 1e-8", where);
+        figure("max_abs_error", texels.total, all, std::string("stored values") + kAgainst, where);
     add(total);
 
     const bool thorough = context.certify_fully() || accuracy.as_sampled;
     // A row of points takes three views a column, and two rows of texels.
     const int sampled_rows = static_cast<int>(std::clamp(views / (5.0 * params.width()), 2.0, 64.0));
-    const SampledErrors between = sampled_errors(
-        params, &product, truth(), thorough ? Probing::thorough : Probing::some, sampled_rows, seed, context);
+    const SampledErrors between =
+        sampled_errors(params, &product, methods.truth, thorough ? Probing::thorough : Probing::some,
+                       sampled_rows, seed, context);
     const std::string points =
         std::to_string(between.points) +
         (thorough ? " points, in every cell of the range that a shader reads"
                   : " points, rows chosen by hash, the smoothest among them; the largest found, so a lower "
                     "bound");
     add(figure("interpolation_error", between.interpolation, thorough,
-               "bilinear lookup in exact texels against quadrature to 1e-8", points));
+               std::string("bilinear lookup in exact texels") + kAgainst, points));
     const Figure sampled = figure("max_abs_error_sampled", between.sampled, thorough,
-                                  "bilinear lookup in stored texels against quadrature to 1e-8", points);
+                                  std::string("bilinear lookup in stored texels") + kAgainst, points);
     add(sampled);
     if (std::find(params.terms.begin(), params.terms.end(), Term::ggx) != params.terms.end())
         add_fits(certificate.figures, params, context);
