@@ -189,6 +189,8 @@ class Conversion {
                 return per_candela * (is_rectangle ? area : kPi * radius_m * radius_m);
             case LightUnit::watt:
                 return per_candela * anchor_.efficacy_lm_per_w / shape_sr;
+            case LightUnit::watt_per_sr:
+                return per_candela * anchor_.efficacy_lm_per_w;
             case LightUnit::watt_per_m2:
                 return anchor_.efficacy_lm_per_w;
         }

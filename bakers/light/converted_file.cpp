@@ -14,8 +14,9 @@ double tolerance_stops(const Accuracy& accuracy) {
 }  // namespace
 
 ConvertedFile convert_file(const LightParams& params, const SourceImage& source, Context& context) {
-    const parse::LightFile file =
-        parse::parse_lights(source.bytes, source.name, static_cast<parse::ThreeLights>(params.three_lights));
+    const parse::LightFile file = parse::parse_lights(source.bytes, source.name,
+                                                      {static_cast<parse::ThreeLights>(params.three_lights),
+                                                       static_cast<parse::GltfUnits>(params.gltf_units)});
     ConvertedFile converted;
     converted.source = source.name.substr(source.name.find_last_of("/\\") + 1);  // products hold no folders
     converted.format = file.format;

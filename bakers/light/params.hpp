@@ -13,6 +13,7 @@ namespace light {
 enum class Shape { automatic, point, disk, rectangle };
 enum class Colours { automatic, linear, srgb };
 enum class ThreeLights { automatic, legacy, physical };
+enum class GltfUnits { standard, unitless, raw };
 enum class DocumentKind { json, gltf };
 
 struct LightParams {
@@ -27,6 +28,7 @@ struct LightParams {
     double near_m;  ///< 0: a twentieth of the reach
     double far_m;   ///< 0: nine tenths of it
     ThreeLights three_lights;
+    GltfUnits gltf_units;
     std::vector<DocumentKind> documents;
 
     template <class Visit>
@@ -42,6 +44,7 @@ struct LightParams {
         visit("near_m", &LightParams::near_m);
         visit("far_m", &LightParams::far_m);
         visit("three_lights", &LightParams::three_lights);
+        visit("gltf_units", &LightParams::gltf_units);
         visit("documents", &LightParams::documents);
     }
 };
@@ -59,6 +62,10 @@ struct EnumNames<light::Colours> {
 template <>
 struct EnumNames<light::ThreeLights> {
     static constexpr std::array<std::string_view, 3> names{"auto", "legacy", "physical"};
+};
+template <>
+struct EnumNames<light::GltfUnits> {
+    static constexpr std::array<std::string_view, 3> names{"standard", "unitless", "raw"};
 };
 template <>
 struct EnumNames<light::DocumentKind> {

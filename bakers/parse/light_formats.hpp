@@ -12,7 +12,7 @@
 namespace pbrbake::parse {
 
 LightFile parse_plain_lights(const Json& json, const std::string& file);
-LightFile parse_gltf_lights(const Json& json, const std::string& file);
+LightFile parse_gltf_lights(const Json& json, const std::string& file, GltfUnits units);
 LightFile parse_three_lights(const Json& json, const std::string& file, ThreeLights three);
 LightFile parse_csv_lights(std::string_view text, const std::string& file);
 LightFile parse_collada_lights(std::string_view text, const std::string& file);

@@ -20,16 +20,22 @@ void read_spot(const JsonFields& fields, LegacyLight& light) {
     spot.outer_rad = cone->number({"outerConeAngle"}, 45 * kRadPerDegree);
 }
 
-LegacyLight read_light(const JsonFields& fields, std::size_t i) {
+LightUnit unit_of(GltfUnits units, bool is_directional) {
+    if (is_directional) return units == GltfUnits::standard ? LightUnit::lux : LightUnit::watt_per_m2;
+    return units == GltfUnits::standard   ? LightUnit::candela
+           : units == GltfUnits::unitless ? LightUnit::watt_per_sr
+                                          : LightUnit::watt;
+}
+
+LegacyLight read_light(const JsonFields& fields, GltfUnits units, std::size_t i) {
     LegacyLight light;
     const std::string type = fields.text({"type"}, "");
     light.name = fields.text({"name"}, "light " + std::to_string(i));
     light.intensity = fields.number({"intensity"}, 1);
     light.colour = fields.vector({"color"}).value_or(glm::dvec3(1));
-    light.unit = LightUnit::candela;
+    light.unit = unit_of(units, type == "directional");
     if (type == "directional") {
         light.type = LightType::directional;
-        light.unit = LightUnit::lux;
         return light;
     }
     if (type != "point" && type != "spot") fields.refuse("type", "\"point\", \"spot\", \"directional\"");
@@ -118,18 +124,23 @@ class Scene {
 
 }  // namespace
 
-LightFile parse_gltf_lights(const Json& json, const std::string& file) {
+LightFile parse_gltf_lights(const Json& json, const std::string& file, GltfUnits units) {
     const JsonFields root(json, file);
     LightFile result;
     result.format = "glTF KHR_lights_punctual";
-    result.meaning = "candela for point and spot, lux for directional lights, metres (KHR_lights_punctual)";
+    result.meaning =
+        units == GltfUnits::standard
+            ? "candela for point and spot, lux for directional lights, metres (KHR_lights_punctual)"
+        : units == GltfUnits::unitless
+            ? "watts a steradian and watts a square metre, as Blender's \"unitless\" mode exports"
+            : "watts and watts a square metre, as Blender's \"raw\" mode exports";
     result.unit_is_stated = true;
     std::vector<LegacyLight> lights;
     if (const auto extensions = root.object({"extensions"}))
         if (const auto extension = extensions->object({kExtension})) {
             const std::vector<JsonFields> list = extension->objects("lights");
             if (list.size() > kMostLights) extension->refuse("lights", "at most 100000 lights");
-            for (std::size_t i = 0; i < list.size(); ++i) lights.push_back(read_light(list[i], i));
+            for (std::size_t i = 0; i < list.size(); ++i) lights.push_back(read_light(list[i], units, i));
         }
     Scene scene(root, lights);
     for (const std::size_t start : scene.roots(root)) scene.walk(start, glm::dmat4(1), result.lights);

@@ -37,7 +37,7 @@ const char* const kFalloffNames =
     "ramp, "
     "smoothstep, smootherstep, quartic, quartic_squared";
 const char* const kLightTypeNames = "point, spot, directional, ambient, sphere, rectangle";
-const char* const kLightUnitNames = "relative, cd, lm, lm_over_pi, lm_over_4pi, lx, nit, W, W/m2";
+const char* const kLightUnitNames = "relative, cd, lm, lm_over_pi, lm_over_4pi, lx, nit, W, W/sr, W/m2";
 
 bool make_falloff(const PlainFalloff& plain, pbr::Falloff& law) {
     law = pbr::Falloff{};
@@ -106,7 +106,7 @@ std::optional<double> finite_number(std::string_view word) {
 }
 
 std::optional<LightUnit> light_unit(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, LightUnit>, 9> kNames{
+    constexpr std::array<std::pair<std::string_view, LightUnit>, 10> kNames{
         {{"relative", LightUnit::relative},
          {"cd", LightUnit::candela},
          {"lm", LightUnit::lumen},
@@ -115,6 +115,7 @@ std::optional<LightUnit> light_unit(std::string_view name) {
          {"lx", LightUnit::lux},
          {"nit", LightUnit::nit},
          {"W", LightUnit::watt},
+         {"W/sr", LightUnit::watt_per_sr},
          {"W/m2", LightUnit::watt_per_m2}}};
     for (const auto& [word, unit] : kNames)
         if (word == name) return unit;
@@ -125,8 +126,9 @@ LightUnit unit_for(LightType type, LightUnit unit) {
     const bool is_far = type == LightType::directional || type == LightType::ambient;
     if (unit == LightUnit::relative) return unit;
     if (is_far)
-        return unit == LightUnit::watt || unit == LightUnit::watt_per_m2 ? LightUnit::watt_per_m2
-                                                                         : LightUnit::lux;
+        return unit == LightUnit::watt || unit == LightUnit::watt_per_sr || unit == LightUnit::watt_per_m2
+                   ? LightUnit::watt_per_m2
+                   : LightUnit::lux;
     if (unit == LightUnit::watt_per_m2) return LightUnit::watt;
     if (unit == LightUnit::lux) return LightUnit::candela;
     if (unit == LightUnit::nit && type != LightType::sphere && type != LightType::rectangle)

@@ -39,13 +39,15 @@ std::string_view glb_json(std::string_view bytes, const std::string& file) {
     return bytes.substr(kHeader, word(12));
 }
 
-LightFile parse_json_lights(std::string_view text, const std::string& file, ThreeLights three) {
+LightFile parse_json_lights(std::string_view text, const std::string& file,
+                            const LightConventions& conventions) {
     const Json json = json_of(text, file);
     if (!json.is_object())
         throw malformed(file, 0,
                         "is JSON, but no object; allowed: glTF, a three.js scene, or {\"lights\": […]}");
-    if (json.contains("asset")) return parse_gltf_lights(json, file);
-    if (json.contains("metadata") || json.contains("object")) return parse_three_lights(json, file, three);
+    if (json.contains("asset")) return parse_gltf_lights(json, file, conventions.gltf);
+    if (json.contains("metadata") || json.contains("object"))
+        return parse_three_lights(json, file, conventions.three);
     if (json.contains("lights")) return parse_plain_lights(json, file);
     throw malformed(file, 0,
                     "is JSON without \"asset\" (glTF), \"metadata\" (three.js) or \"lights\" (plain lights)");
@@ -58,7 +60,8 @@ bool has_extension(const std::string& file, std::string_view extension) {
     return end == extension;
 }
 
-LightFile parse_text_lights(std::string_view text, const std::string& file, ThreeLights three) {
+LightFile parse_text_lights(std::string_view text, const std::string& file,
+                            const LightConventions& conventions) {
     const std::size_t start = text.find_first_not_of(" \t\r\n\v\f");
     if (start == text.npos) throw malformed(file, 0, "holds nothing but blanks");
     const std::string_view head = text.substr(start);
@@ -72,9 +75,9 @@ LightFile parse_text_lights(std::string_view text, const std::string& file, Thre
     if (head.starts_with('{') && !is_map) {
         const std::size_t key = head.find('"'), end = key == head.npos ? head.npos : head.find('"', key + 1);
         const std::size_t next = end == head.npos ? head.npos : head.find_first_not_of(" \t\r\n", end + 1);
-        if (next == head.npos || head[next] != '"') return parse_json_lights(head, file, three);
+        if (next == head.npos || head[next] != '"') return parse_json_lights(head, file, conventions);
     }
-    if (head.starts_with('[')) return parse_json_lights(head, file, three);
+    if (head.starts_with('[')) return parse_json_lights(head, file, conventions);
     if (is_map || head.find("\"classname\"") != head.npos) return parse_entity_lights(text, file);
     if (head.find("LightObject") != head.npos || head.starts_with("Metric"))
         return parse_opengex_lights(text, file);
@@ -89,15 +92,17 @@ LightFile parse_text_lights(std::string_view text, const std::string& file, Thre
 
 }  // namespace
 
-LightFile parse_lights(std::span<const std::byte> bytes, std::string_view file, ThreeLights three) {
+LightFile parse_lights(std::span<const std::byte> bytes, std::string_view file,
+                       const LightConventions& conventions) {
     const std::string name(file);
     const std::string_view raw(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (raw.starts_with("glTF")) return parse_gltf_lights(json_of(glb_json(raw, name), name), name);
+    if (raw.starts_with("glTF"))
+        return parse_gltf_lights(json_of(glb_json(raw, name), name), name, conventions.gltf);
     if (raw.starts_with("Kaydara"))
         throw malformed(file, 0, "is FBX, which isn't read; export glTF or COLLADA");
     std::vector<Diagnostic> diagnostics;
     const std::string text = decode_text(bytes, file, diagnostics);
-    LightFile lights = parse_text_lights(text, name, three);
+    LightFile lights = parse_text_lights(text, name, conventions);
     constexpr double kLeast_m = 1e-6, kMost_m = 1e6;
     if (!(lights.unit_m >= kLeast_m && lights.unit_m <= kMost_m))
         throw malformed(file, 0,

@@ -30,6 +30,7 @@ enum class LightUnit {
     lux,              ///< of a directional light
     nit,              ///< luminance of an area light
     watt,             ///< radiant, over the sphere (spots too) or a Lambertian area: Blender's
+    watt_per_sr,      ///< radiant intensity: Blender's glTF in its "unitless" mode
     watt_per_m2,      ///< irradiance of a directional light: Blender's sun
 };
 
@@ -70,9 +71,19 @@ struct LightFile {
 /// three.js changed its lights in r155 and files hardly tell which they were made for.
 enum class ThreeLights { automatic, legacy, physical };
 
+/// What Blender's glTF exporter wrote: candela and lux, as glTF has it; W/sr and W/m^2, its "unitless" mode;
+/// or its own W and W/m^2, its "raw" mode.
+enum class GltfUnits { standard, unitless, raw };
+
+/// What files don't tell of themselves.
+struct LightConventions {
+    ThreeLights three = ThreeLights::automatic;
+    GltfUnits gltf = GltfUnits::standard;
+};
+
 /// Reads a file of any format known, told by its content: glTF, three.js, plain JSON, COLLADA, Quake map,
 /// Source VMF, OpenGEX, AC3D, CSV. `file` is for messages. Throws Error(unreadable_input).
 LightFile parse_lights(std::span<const std::byte> bytes, std::string_view file,
-                       ThreeLights three = ThreeLights::automatic);
+                       const LightConventions& conventions = {});
 
 }  // namespace pbrbake::parse

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -108,6 +109,26 @@ TEST(Light, WattsAreBlenders) {
     EXPECT_NEAR(sun.light()["illuminance_lx"].get<double>(), 3 * 683, 1e-6);
     const Baked area = bake_one(R"("type": "area", "unit": "W", "intensity": 10, "width": 2, "height": 0.5)");
     EXPECT_NEAR(area.light()["luminance_cd_m2"].get<double>(), 10 * 683 / kPi, 1e-3);
+}
+
+TEST(Light, BlendersThreeModesOfGltfAreOneLamp) {
+    // A lamp of 100 W and a sun of 3 W/m^2, as its exporter writes them in each mode.
+    const auto scene = [](double point, double sun) {
+        return R"({"asset": {"version": "2.0"}, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": )" +
+               parse::number_text(point) + R"(}, {"type": "directional", "intensity": )" +
+               parse::number_text(sun) + "}]}}}";
+    };
+    const std::array<std::pair<GltfUnits, std::string>, 3> files{
+        {{GltfUnits::standard, scene(100 * 683 / (4 * kPi), 3 * 683)},
+         {GltfUnits::unitless, scene(100 / (4 * kPi), 3)},
+         {GltfUnits::raw, scene(100, 3)}}};
+    for (const auto& [units, text] : files) {
+        LightParams params = defaults();
+        params.gltf_units = units;
+        const Baked baked = bake_text(text, params, "scene.gltf");
+        EXPECT_NEAR(baked.light(0)["intensity_cd"].get<double>(), 5435.142, 1e-2);
+        EXPECT_NEAR(baked.light(1)["illuminance_lx"].get<double>(), 2049, 1e-5);
+    }
 }
 
 TEST(Light, AreaSourcesKeepTheirSizeAndLuminance) {

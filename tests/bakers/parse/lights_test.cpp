@@ -17,7 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 using testing::HasSubstr;
 
 LightFile read(const std::string& text, const std::string& name, ThreeLights three = ThreeLights::automatic) {
-    return parse_lights(bytes_of(text), name, three);
+    return parse_lights(bytes_of(text), name, {three, GltfUnits::standard});
 }
 
 std::string refusal(const std::string& text, const std::string& name) {
