@@ -23,10 +23,11 @@ namespace pbr {
 struct Monomial {
     int a, b, c;
 };
-inline constexpr std::array<Monomial, 20> kMonomials{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 0, 0},
-                                                      {0, 2, 0}, {0, 0, 2}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1},
-                                                      {3, 0, 0}, {0, 3, 0}, {0, 0, 3}, {2, 1, 0}, {2, 0, 1},
-                                                      {1, 2, 0}, {0, 2, 1}, {1, 0, 2}, {0, 1, 2}, {1, 1, 1}}};
+inline constexpr int kMomentCount = 20;
+inline constexpr std::array<Monomial, kMomentCount> kMonomials{
+    {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2},
+     {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}, {2, 1, 0},
+     {2, 0, 1}, {1, 2, 0}, {0, 2, 1}, {1, 0, 2}, {0, 1, 2}, {1, 1, 1}}};
 
 /// Where a part of the picture lies: what decides whether it may be taken as one.
 struct MomentCone {
@@ -43,7 +44,7 @@ struct MomentCone {
 /// Means over the part's solid angle, so that no radiance overflows, of radiance r, g, b, and of 1 in its
 /// place, times a monomial of (x, y, z) = d - centre over a! b! c!.
 struct Moments {
-    float mean[kMonomials.size()][4];
+    float mean[kMomentCount][4];
 };
 
 /// Nodes over a picture's blocks: level 0 a node a block, each further level 2 x 2 of the one before, up to
