@@ -19,7 +19,8 @@ TEST(Help, FitsEightyColumns) {
                                                {"dfg", "--help"},
                                                {"probe", "-h"},
                                                {"inspect", "--help"},
-                                               {"demo", "--help"}}) {
+                                               {"demo", "--help"},
+                                               {"study", "--help"}}) {
         const Outcome outcome = run_program(arguments);
         EXPECT_EQ(outcome.code, 0);
         EXPECT_EQ(outcome.err, "");
@@ -34,7 +35,7 @@ TEST(Help, FitsEightyColumns) {
 
 TEST(Help, ListsCommandsAndFlags) {
     const std::string commands = run_program({"--help"}).out;
-    for (const char* command : {"bake", "dfg", "probe", "inspect", "demo"})
+    for (const char* command : {"bake", "dfg", "probe", "inspect", "demo", "study"})
         EXPECT_THAT(commands, HasSubstr(command));
     EXPECT_THAT(run_program({"dfg", "--help"}).out, HasSubstr("--roughness-axis perceptual|alpha"));
 }
