@@ -239,7 +239,7 @@ std::string study_table(const Study& study) {
     const Machine machine = this_machine();
     std::string text =
         "What accuracy costs. " + machine.processor.substr(0, kWidth - 30) + "\n" +
-        "time: CPU of the bake stage on one thread, as a ratio; ±%: how well that is known\n\n";
+        "time: CPU of the bake on one thread, as a ratio; ±%: how well that is known\n\n";
     for (const StudiedCase& studied : study.cases) text += table_of(studied);
     return text + std::to_string(study.known) + " of " + std::to_string(study.points) +
            " times known to 5 % after " + std::to_string(study.rounds) + " rounds, " + number(study.wall_s) +

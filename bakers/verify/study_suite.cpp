@@ -30,8 +30,7 @@ struct Dials {
 
 Dials dials(Depth depth, std::vector<double> errors) {
     if (depth == Depth::quick) return {{8, 32, 128, 512, 2048}, std::move(errors), {16, 32, 64, 128}};
-    return {
-        {4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}, std::move(errors), {16, 32, 64, 128, 256}};
+    return {{4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}, std::move(errors), {16, 32, 64, 128, 256}};
 }
 
 std::string short_number(double value) {

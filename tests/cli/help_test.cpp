@@ -36,7 +36,7 @@ TEST(Help, FitsEightyColumns) {
 
 TEST(Help, ListsCommandsAndFlags) {
     const std::string commands = run_program({"--help"}).out;
-    for (const char* command : {"bake", "dfg", "probe", "inspect", "compare", "demo"})
+    for (const char* command : {"bake", "dfg", "probe", "inspect", "compare", "demo", "study"})
         EXPECT_THAT(commands, HasSubstr(command));
     EXPECT_THAT(run_program({"dfg", "--help"}).out, HasSubstr("--align auto|center|ends"));
 }
