@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <span>
 #include <string>
@@ -28,6 +29,12 @@ Json level_properties(const ProbeParams& params, const Json& notes) {
     return levels;
 }
 
+/// The shortest text that reads back as the number.
+std::string number(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 /// Mistakes in a list of roughness.
 void check_roughness(const ProbeParams& params, std::vector<Mistake>& mistakes) {
     constexpr double kLowest = 0.01;  // alpha 1e-4: narrower lobes are mirrors
@@ -47,9 +54,9 @@ void check_roughness(const ProbeParams& params, std::vector<Mistake>& mistakes) 
         if (l == 0 ? value != 0 : value < lowest)
             mistakes.push_back(
                 {pointer + "/" + std::to_string(l),
-                 "found " + Json(value).dump() + "; allowed: " +
+                 "found " + number(value) + "; allowed: " +
                      (l == 0 ? "0, for level 0 is the mirror"
-                             : Json(lowest).dump() + " to 1, no level smoother than the one before")});
+                             : number(lowest) + " to 1, no level smoother than the one before")});
     }
 }
 

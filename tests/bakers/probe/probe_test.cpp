@@ -135,7 +135,7 @@ TEST(ProbeBaker, RefusesRoughnessThatFallsOrStartsRough) {
     EXPECT_EQ(mistake(0, {0, 0.5, 0.4}),
               "/perceptual_roughness/2 found 0.4; allowed: 0.5 to 1, no level smoother than the one before");
     EXPECT_EQ(mistake(0, {0, 0}),
-              "/perceptual_roughness/1 found 0.0; allowed: 0.01 to 1, no level smoother than the one before");
+              "/perceptual_roughness/1 found 0; allowed: 0.01 to 1, no level smoother than the one before");
     EXPECT_EQ(mistake(4, {0, 0.5}),
               "/levels found 4, and perceptual_roughness lists 2 levels; allowed: 0 or 2");
     EXPECT_EQ(mistake(0, {0, 0.1, 0.2, 0.3, 0.4, 0.5, 1}),

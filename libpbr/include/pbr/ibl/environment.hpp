@@ -59,7 +59,7 @@ double equirect_texel_solid_angle(int width, int height, int y);
 /// picture.
 void resample_area(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out);
 
-/// All faces at once, in rgb_out[((face * size + y) * size + x) * 3], some thirty times faster where
+/// All faces at once, in rgb_out[((face * size + y) * size + x) * 3], more than ten times faster where
 /// world_to_source takes the picture's vertical axis to an axis of the cube, its width is a multiple of 4
 /// from 64 up and, for the two faces at the poles, `size` is even. By two points between columns:
 /// error 1.2e-3 root mean square, 2.5e-2 at most.
