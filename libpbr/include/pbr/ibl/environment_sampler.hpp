@@ -36,8 +36,8 @@ class EnvironmentSampler {
     /// an equirect, evenly over the face's area on a cube. Not to be called when flat().
     Draw sample(double u1, double u2) const;
 
-    /// Density of sample() at a direction (any length but 0), 1/sr. Relative error 1e-15 of the whole's
-    /// share.
+    /// Density of sample() at a direction (any length but 0), 1/sr. Relative error below 1e-7: it is kept as
+    /// a float.
     double pdf(const glm::dvec3& direction) const;
 
     /// The texel that a direction falls into, counted along rows, face after face.
