@@ -51,11 +51,12 @@ struct FileInfo {
 
 /// A whole file in memory. `format` is one of formats() (bakers/formats.hpp), which says what each holds.
 /// ktx2 and dds store 3 channels as 4, the last one 1; png and hdr store 2 as 3, the last one 0, and hdr 1 as
-/// 3 that are equal. dds, png and hdr hold no metadata; h has it as comments. Levels halve, rounding down; an EXR cube map's
-/// without remainder. "pbrbake:working_space" (lin_rec709 | acescg), "pbrbake:units" and "pbrbake:scale" of
-/// the metadata also set what the containers have for primaries and luminance; "pbrbake:levels" and
-/// "pbrbake:channels" are io's own. Throws Error(unwritable_output) for what a format can't hold. Bytes
-/// depend on nothing but the arguments. Texels must already be representable in `info.pixel` (see quantise).
+/// 3 that are equal. dds, png and hdr hold no metadata; h has it as comments. Levels halve, rounding down; an
+/// EXR cube map's without remainder. "pbrbake:working_space" (lin_rec709 | acescg), "pbrbake:units" and
+/// "pbrbake:scale" of the metadata also set what the containers have for primaries and luminance;
+/// "pbrbake:levels" and "pbrbake:channels" are io's own. Throws Error(unwritable_output) for what a format
+/// can't hold. Bytes depend on nothing but the arguments. Texels must already be representable in
+/// `info.pixel` (see quantise).
 std::vector<std::byte> encode(std::string_view format, const Image& image, const FileInfo& info);
 
 /// Formats encode() writes.
@@ -64,8 +65,8 @@ const std::vector<std::string>& output_formats();
 /// Rounds every texel to what `pixel` can store (half: to nearest even), after multiplying by one power of
 /// two, the largest 2^-k, k >= 0, with which the peak of all images fits; returns it. Half and float keep
 /// signs; the unorm types end at 1 and clip negatives to 0, as rgbe does, which
-/// carries what rounding takes to the next texel, so that means are kept (a texel is off by less than .8 %). NaN and Inf stay in half and float;
-/// the caller has a bug then.
+/// carries what rounding takes to the next texel, so that means are kept (a texel is off by less than .8 %).
+/// NaN and Inf stay in half and float; the caller has a bug then.
 double quantise(std::vector<Image>& images, PixelType pixel);
 
 /// A product read back: our own EXR, KTX2 and DDS files (all faces and levels), PNG, HDR, and plain 2D EXR.
