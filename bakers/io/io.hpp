@@ -52,11 +52,12 @@ struct FileInfo {
 
 /// A whole file in memory. `format` is one of formats() (bakers/formats.hpp), which says what each holds.
 /// ktx2 and dds store 3 channels as 4, the last one 1; png and hdr store 2 as 3, the last one 0, and hdr 1 as
-/// 3 that are equal. dds, png and hdr hold no metadata; h has it as comments. Levels halve, rounding down; an EXR cube map's
-/// without remainder. "pbrbake:working_space" (lin_rec709 | acescg), "pbrbake:units" and "pbrbake:scale" of
-/// the metadata also set what the containers have for primaries and luminance; "pbrbake:levels" and
-/// "pbrbake:channels" are io's own. Throws Error(unwritable_output) for what a format can't hold. Bytes
-/// depend on nothing but the arguments. Texels must already be representable in `info.pixel` (see quantise).
+/// 3 that are equal. dds, png and hdr hold no metadata; h has it as comments. Levels halve, rounding down; an
+/// EXR cube map's without remainder. "pbrbake:working_space" (lin_rec709 | acescg), "pbrbake:units" and
+/// "pbrbake:scale" of the metadata also set what the containers have for primaries and luminance;
+/// "pbrbake:levels" and "pbrbake:channels" are io's own. Throws Error(unwritable_output) for what a format
+/// can't hold. Bytes depend on nothing but the arguments. Texels must already be representable in
+/// `info.pixel` (see quantise).
 std::vector<std::byte> encode(std::string_view format, const Image& image, const FileInfo& info);
 
 /// Formats encode() writes.
