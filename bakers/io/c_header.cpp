@@ -26,7 +26,7 @@ std::string identifier(const std::string& name) {
 std::string literal(float value, PixelType pixel) {
     if (pixel != PixelType::float32) {
         std::array<std::byte, 2> bytes{};
-        store_component(bytes.data(), value, pixel);
+        store_component(bytes.data(), value, pixel, Transfer::linear);
         std::uint16_t bits = 0;
         std::memcpy(&bits, bytes.data(), sizeof bits);
         return std::to_string(bits);
