@@ -73,6 +73,13 @@ struct Results {
     }
 };
 
+/// Photometric files that the suite made for itself go beside the study, for who repeats a bake.
+void keep_sources(const fs::path& scratch, const fs::path& folder) {
+    for (const auto& entry : fs::directory_iterator(scratch))
+        if (entry.path().extension() == ".ies")
+            run::write_atomically(folder / entry.path().filename(), job::read_text(entry.path()));
+}
+
 /// The page comes last: where it is, the rest is.
 void write_results(const Results& results, const verify::PictureBook& pictures, const std::string& command,
                    const fs::path& folder) {
@@ -184,7 +191,9 @@ ExitCode study_command(const Arguments& arguments) {
         options.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
     try {
         const Results results = run_all(*given, options);
-        write_results(results, pictures, command_line(arguments), given->find("output").value_or("study"));
+        const fs::path folder = given->find("output").value_or("study");
+        keep_sources(scratch.path(), folder);
+        write_results(results, pictures, command_line(arguments), folder);
         print_results(results, given->is_on("json"));
     } catch (const Cancelled&) {
         return ExitCode::interrupted;

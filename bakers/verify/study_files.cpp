@@ -10,6 +10,7 @@
 #include "bakers/verify/machine.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/study.hpp"
+#include "bakers/verify/study_job.hpp"
 
 namespace pbrbake::verify {
 namespace {
@@ -64,7 +65,7 @@ Json case_json(const StudiedCase& studied) {
                           {"point", digit.point},
                           {"time_ratio", studied.points[digit.point].timing.ratio.value}});
     Json json{{"name", studied.asked.name},   {"title", studied.asked.title},
-              {"about", studied.asked.about}, {"bake", studied.asked.bake},
+              {"about", studied.asked.about}, {"bake", without_folders(studied.asked.bake)},
               {"metric", studied.metric},     {"truth", studied.truth},
               {"floor", studied.floor},       {"base", studied.base},
               {"series", std::move(series)},  {"points", std::move(points)},
@@ -237,9 +238,8 @@ std::string study_csv(const Study& study) {
 
 std::string study_table(const Study& study) {
     const Machine machine = this_machine();
-    std::string text =
-        "What accuracy costs. " + machine.processor.substr(0, kWidth - 30) + "\n" +
-        "time: CPU of the bake on one thread, as a ratio; ±%: how well that is known\n\n";
+    std::string text = "What accuracy costs. " + machine.processor.substr(0, kWidth - 30) + "\n" +
+                       "time: CPU of the bake on one thread, as a ratio; ±%: how well that is known\n\n";
     for (const StudiedCase& studied : study.cases) text += table_of(studied);
     return text + std::to_string(study.known) + " of " + std::to_string(study.points) +
            " times known to 5 % after " + std::to_string(study.rounds) + " rounds, " + number(study.wall_s) +

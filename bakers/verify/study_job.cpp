@@ -12,6 +12,15 @@ job::Job single_bake_job(const Json& around, Json bake, const std::string& name,
     return job::from_document(std::move(document), {folder / (name + "." + format), {}});
 }
 
+Json without_folders(Json bake) {
+    for (auto& [key, value] : bake.items()) {
+        if (!value.is_string()) continue;
+        const std::filesystem::path path(value.get<std::string>());
+        if (path.is_absolute()) value = path.filename().string();
+    }
+    return bake;
+}
+
 Json with_overrides(Json bake, const Json& overrides) {
     for (const auto& [key, value] : overrides.items())
         if (value.is_null())

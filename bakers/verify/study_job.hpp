@@ -14,6 +14,9 @@ namespace pbrbake::verify {
 job::Job single_bake_job(const Json& around, Json bake, const std::string& name,
                          const std::filesystem::path& folder);
 
+/// A bake as reports show it: of absolute paths the file's name alone.
+Json without_folders(Json bake);
+
 /// A bake with some properties replaced; null ones are left to the schema's defaults.
 Json with_overrides(Json bake, const Json& overrides);
 

@@ -157,7 +157,7 @@ std::string knee_text(const StudiedCase& studied) {
 
 std::string reproduce(const StudiedCase& studied) {
     const std::size_t shown = studied.knee.value_or(studied.base);
-    Json bake = with_overrides(studied.asked.bake, studied.points[shown].step.overrides);
+    Json bake = without_folders(with_overrides(studied.asked.bake, studied.points[shown].step.overrides));
     bake["name"] = studied.asked.name;
     return "<details><summary>The bake of " + setting(studied, shown) + " as a job</summary><pre>" +
            escaped(job::to_text({{"version", 1}, {"bakes", Json::array({bake})}})) + "</pre></details>\n";

@@ -243,6 +243,12 @@ TEST(Suite, HasAReferenceAndABaseThatItsDialsReach) {
         }
 }
 
+TEST(Suite, ShowsNoFolderOfTheMachine) {
+    const TemporaryFolder folder;
+    for (const StudyCase& asked : suite_cases(Depth::quick, folder.path()))
+        EXPECT_EQ(job::to_line(without_folders(asked.bake)).find(folder.path().string()), std::string::npos);
+}
+
 TEST(Suite, TriesEveryIntegratorThatTheSchemaLists) {
     const TemporaryFolder folder;
     const Json& properties = job::job_schema().root()["definitions"]["probe"]["properties"];
