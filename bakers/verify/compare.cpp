@@ -98,7 +98,7 @@ class ProductCheck {
             return;
         }
         identical_ = io::hash_file(pair.a) == io::hash_file(pair.b);
-        if (pair.a.extension() == ".json" || !find_format(extension(pair.b))) return check_document();
+        if (!holds_pictures(pair.b)) return check_document();
         a_ = read_product_file(pair.a, pair.entry_a);
         b_ = read_product_file(pair.b, pair.entry_b);
         result_.channels = b_.image.channels;
@@ -116,11 +116,16 @@ class ProductCheck {
         return text.empty() ? "" : text.substr(1);
     }
 
+    static bool holds_pictures(const fs::path& file) {
+        const Format* format = find_format(extension(file));
+        return format && !format->is_document();
+    }
+
     void check_document() {
         if (identical_) return;
         result_.verdict = Verdict::within;
         const std::string text_a = job::read_text(result_.pair.a), text_b = job::read_text(result_.pair.b);
-        if (extension(result_.pair.b) != "json") {
+        if (const std::string ending = extension(result_.pair.b); ending != "json" && ending != "gltf") {
             result_.reasons.push_back("the text differs");
         } else {
             const Json a = parsed(text_a, result_.pair.a), b = parsed(text_b, result_.pair.b);

@@ -14,8 +14,10 @@ namespace pbrbake::verify {
 namespace fs = std::filesystem;
 namespace {
 
-bool is_product_name(const fs::path& file) {
+/// Whether a file is a product: most are by their ending, a JSON document if it has a record of its own.
+bool is_product(const fs::path& file) {
     const std::string extension = file.extension().string();
+    if (extension == ".json") return !record_of(file).is_null();
     return !extension.empty() && find_format(extension.substr(1)) != nullptr;
 }
 
@@ -62,7 +64,7 @@ void list_folder(const fs::path& folder, const fs::path& prefix, std::vector<Lis
     for (const fs::path& path : entries) {
         if (fs::is_directory(path) && !fs::is_symlink(path)) {
             list_folder(path, prefix / path.filename(), files);
-        } else if (!has_manifest && is_product_name(path) && listed.insert(path.filename().string()).second) {
+        } else if (!has_manifest && is_product(path) && listed.insert(path.filename().string()).second) {
             const Json record = record_of(path);
             if (record.is_null()) {
                 files.push_back({(prefix / path.filename()).generic_string(), path, nullptr, 0});
@@ -147,7 +149,7 @@ std::vector<Pair> pairs_of(const fs::path& a, const fs::path& b) {
         std::error_code error;
         if (!fs::exists(path, error))
             throw Error(ExitCode::unreadable_input, path.string(), "does not exist");
-        return fs::is_directory(path) || path.extension() == ".json";
+        return fs::is_directory(path) || (path.extension() == ".json" && !is_product(path));
     };
     const bool set_a = is_set(a), set_b = is_set(b);
     if (set_a != set_b)

@@ -60,5 +60,22 @@ TEST_F(Compare, WhatCannotBeReadEndsWithFour) {
     EXPECT_THAT(absent.err, HasSubstr("absent.exr: does not exist"));
 }
 
+TEST(CompareCommand, HoldsDocumentsThatAreProducts) {
+    const TemporaryFolder folder;
+    folder.write("lamps.csv", "name,type,unit,intensity,falloff\nbulb,point,cd,80,inverse_square\n");
+    folder.write("brighter.csv", "name,type,unit,intensity,falloff\nbulb,point,cd,90,inverse_square\n");
+    for (const char* at : {"a", "b", "c"}) {
+        std::filesystem::create_directory(folder / at);
+        const char* source = *at == 'c' ? "brighter.csv" : "lamps.csv";
+        ASSERT_EQ(run_program({"light", folder / source, "-o", folder / at / "lamps.json"}).code, 0);
+    }
+    EXPECT_EQ(run_program({"compare", folder / "a/lamps.json", folder / "b/lamps.json"}).code, 0);
+    EXPECT_EQ(run_program({"compare", folder / "a", folder / "b"}).code,
+              0);  // nor do records count as products
+    const Outcome outcome = run_program({"compare", folder / "a", folder / "c"});
+    EXPECT_EQ(outcome.code, 6);
+    EXPECT_THAT(outcome.out, testing::HasSubstr("/lights/0"));
+}
+
 }  // namespace
 }  // namespace pbrbake::test
