@@ -19,6 +19,7 @@
 #include "pbr/ibl/environment.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/quadrature.hpp"
+#include "resample_bright.hpp"
 
 namespace pbr {
 namespace {
@@ -396,6 +397,7 @@ void resample_area(const EquirectView& source, int size, const ForEach& each, st
         BesideStrip(beside, task * kStrip, std::min(half, (task + 1) * kStrip)).fill(rgb_out);
     });
     if (!even) fill_pierced_rows(source, size, faces->pierced, each, rgb_out);
+    resample_bright_texels(source, size, each, rgb_out);
 }
 
 }  // namespace pbr
