@@ -13,7 +13,6 @@
 #include "bakers/verify/picture.hpp"
 #include "pbr/brdf/roughness.hpp"
 #include "pbr/ibl/cubemap.hpp"
-#include "pbr/ibl/ld.hpp"
 
 namespace pbrbake::verify {
 namespace {
@@ -368,8 +367,7 @@ Suspect Diagnosis::table_roughness() const {
 Suspect Diagnosis::probe_roughness() const {
     constexpr int kLargestSide = 64;  // of levels looked at
     const int levels = static_cast<int>(b_.levels.size());
-    const auto is_power_of_two = [](int n) { return (n & (n - 1)) == 0; };
-    if (levels < 3 || b_.channels.size() != 3 || !is_power_of_two(b_.levels.front().width)) return {};
+    if (levels < 3 || b_.channels.size() != 3) return {};
     const ProbeLookup lookup(b_, 1);
     double there = 0;
     std::array<double, 2> left{};
