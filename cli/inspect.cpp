@@ -77,7 +77,7 @@ ExitCode inspect_command(const Arguments& arguments) {
         "Shows what a product holds: size, range and mean of every level, its energy if it is a cube map "
         "(the integral over the sphere), and the certificate in the record beside it. Values are divided "
         "by the file's scale.");
-    options.add_positional({{"file", "FILE", "An EXR or KTX2 file."}});
+    options.add_positional({{"file", "FILE", "An EXR, KTX2, DDS, PNG or HDR file."}});
     options.add({"output", {{"json", "", "Prints JSON.", true}}});
     const auto given = options.parse(arguments);
     if (!given) return ExitCode::done;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <numbers>
 #include <numeric>
@@ -145,7 +146,9 @@ std::string factor_text(double factor) {
                                                                {1 / (4 * kPi), "1/(4 pi)"},
                                                                {683, "683 lm/W"},
                                                                {1 / 683.0, "1/(683 lm/W)"}}};
-    std::string text = "values are " + number(factor) + " times the reference's";
+    std::array<char, 32> digits{};
+    std::snprintf(digits.data(), digits.size(), std::abs(factor - 1) < 0.1 ? "%.4f" : "%.3g", factor);
+    std::string text = std::string("values are ") + digits.data() + " times the reference's";
     for (const auto& [value, name] : named)
         if (std::abs(factor / value - 1) < kNear) return text + " (" + name + ")";
     if (std::abs(factor - 1) < 0.5)

@@ -133,7 +133,7 @@ glm::dvec3 LdHarmonic::mean() const {
 int LdHarmonic::bands_for(double alpha, double max_error) {
     const double digits = std::clamp(-log2_exact(max_error) / log2_exact(10), 1.0, 6.0);
     const double for_the_peak = (1.7 + 1.2 * digits) / alpha;
-    const double for_the_kink = 32 * std::pow(2.0, digits - 1);
+    const double for_the_kink = 32 * exp_exact((digits - 1) * std::numbers::ln2);
     return static_cast<int>(std::ceil(std::max(for_the_peak, for_the_kink)));
 }
 
