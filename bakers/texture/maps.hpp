@@ -1,6 +1,9 @@
 #pragma once
 // A set's maps between its files and its packing: what surfaces reflect, texel by texel, linear and in float.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -105,7 +108,16 @@ class Sources {
     std::vector<std::string> warnings_;
 };
 
+/// Slope of IEC 61966-2-1's decoding curve over the square root of the linear value, in 256 steps.
+extern const std::array<float, 257> kSrgbSlopes;
+
 /// Half the linear interval of a code of `bits` (0: float) at a linear value.
-float half_step(float linear, int bits, bool is_srgb);
+inline float half_step(float linear, int bits, bool is_srgb) {
+    if (bits == 0) return 0;
+    const float step = .5f / static_cast<float>((1 << std::min(bits, 16)) - 1);
+    if (!is_srgb) return step;
+    const float root = std::sqrt(std::clamp(linear, 0.f, 1.f));
+    return step * kSrgbSlopes[static_cast<std::size_t>(root * 256)];
+}
 
 }  // namespace pbrbake::texture

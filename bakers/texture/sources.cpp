@@ -13,18 +13,6 @@
 namespace pbrbake::texture {
 namespace {
 
-/// Slope of IEC 61966-2-1's decoding curve over the square root of the linear value, in 256 steps.
-const std::array<float, 257> kSrgbSlopes = [] {
-    std::array<float, 257> slopes{};
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
-        const double root = static_cast<double>(i) / 256, linear = root * root;
-        slopes[i] = static_cast<float>(
-            linear <= .0031308 ? 1 / 12.92
-                               : 2.4 / 1.055 * pbr::exp_exact(1.4 / 2.4 * pbr::log_exact(linear)));
-    }
-    return slopes;
-}();
-
 bool varies(const Image& image, int channel) {
     const std::vector<float>& texels = image.levels.front().texels;
     const std::size_t channels = image.channels.size();
@@ -40,13 +28,16 @@ static_assert(static_cast<int>(Norm::over_pi) == static_cast<int>(pbr::PhongNorm
 
 }  // namespace
 
-float half_step(float linear, int bits, bool is_srgb) {
-    if (bits == 0) return 0;
-    const float step = .5f / static_cast<float>((1 << std::min(bits, 16)) - 1);
-    if (!is_srgb) return step;
-    const float root = std::sqrt(std::clamp(linear, 0.f, 1.f));
-    return step * kSrgbSlopes[static_cast<std::size_t>(root * 256)];
-}
+const std::array<float, 257> kSrgbSlopes = [] {
+    std::array<float, 257> slopes{};
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        const double root = static_cast<double>(i) / 256, linear = root * root;
+        slopes[i] = static_cast<float>(
+            linear <= .0031308 ? 1 / 12.92
+                               : 2.4 / 1.055 * pbr::exp_exact(1.4 / 2.4 * pbr::log_exact(linear)));
+    }
+    return slopes;
+}();
 
 Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(params), inputs_(inputs) {
     for (const auto& [field, source] : inputs) {
