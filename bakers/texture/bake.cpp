@@ -59,6 +59,7 @@ void dither(const TextureParams& params, std::vector<Image>& images) {
 
 void warn(const Sources& sources, const Survey& survey, const Findings& found, Product& product) {
     for (const std::string& warning : sources.warnings()) product.warnings.push_back(warning);
+    for (const std::string& warning : survey.doubts.warnings) product.warnings.push_back(warning);
     const auto percent = [](double share) {
         return std::to_string(static_cast<int>(share * 100 + .5)) + " %";
     };

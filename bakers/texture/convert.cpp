@@ -13,7 +13,7 @@ constexpr float kLeastTolerance = 1e-6f, kLargestTolerance = .5f / 255;
 }  // namespace
 
 Survey survey(const Sources& sources, Context& context) {
-    Survey result{find_calibration(sources, context)};
+    Survey result{find_calibration(sources, context), false, 0, find_doubts(sources)};
     if (!sources.has_normal()) return result;
     const TextureParams& params = sources.params();
     result.green_correlation = green_correlation(sources, context);

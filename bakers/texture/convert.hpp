@@ -2,6 +2,7 @@
 // From a set's files to the maps of its largest level, some rows at a time.
 
 #include "bakers/texture/calibrate.hpp"
+#include "bakers/texture/detect.hpp"
 #include "bakers/texture/maps.hpp"
 #include "bakers/texture/metal.hpp"
 
@@ -12,6 +13,7 @@ struct Survey {
     Calibration calibration;
     bool green_down = false;
     double green_correlation = 0;  ///< > 0: y up; in [-1, 1]
+    Doubts doubts;
 };
 
 Survey survey(const Sources& sources, Context& context);

@@ -65,6 +65,8 @@ class Sources {
     Colour normal(int x, int y) const;  ///< y as stored
     float occlusion(int x, int y) const;
     float opacity(int x, int y) const;
+    /// The exponent that gloss stands for, where gloss_is says it holds one; else < 0. Needs has_gloss().
+    float exponent_at(int x, int y) const;
     bool has_normal() const { return normal_.image != nullptr; }
     bool has_occlusion() const { return occlusion_.image != nullptr; }
     bool has_opacity() const { return opacity_.image != nullptr; }

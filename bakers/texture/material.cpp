@@ -78,6 +78,13 @@ Json properties_json(const TextureParams& params, const Layout& layout, const Su
         json["normal_green"] = survey.green_down ? "down" : "up";
         json["green_correlation"] = survey.green_correlation;
     }
+    const auto add = [&](const char* name, const std::optional<double>& value) {
+        if (value) json[name] = *value;
+    };
+    add("gloss_correlation", survey.doubts.gloss_correlation);
+    add("occlusion_correlation", survey.doubts.occlusion_correlation);
+    add("exponent_median", survey.doubts.exponent_median);
+    add("exponent_max", survey.doubts.exponent_max);
     json["mean_metallic"] = findings.metallic;
     json["mean_confidence"] = findings.confidence;
     json["low_confidence"] = findings.low_confidence;

@@ -140,6 +140,12 @@ float Sources::exponent(float gloss) const {
     return -1;
 }
 
+float Sources::exponent_at(int x, int y) const {
+    float gloss = 0;
+    fetch(gloss_, x, y, &gloss, 1);
+    return exponent(gloss * static_cast<float>(params_.gloss_factor));
+}
+
 /// Of a gloss value times its factor; `n` becomes the exponent.
 float Sources::perceptual_roughness(float gloss, float& n) const {
     const bool is_phong = params_.model == Model::phong;
