@@ -30,6 +30,17 @@ void print_levels(const verify::Inspection& inspection) {
     }
 }
 
+/// Shares of all texels, in percent.
+void print_ranges(const std::vector<verify::RangeCheck>& ranges) {
+    if (ranges.empty()) return;
+    std::printf("\n%-40s %-12s %8s %8s %8s\n", "physical range", "", "texels", "below", "above");
+    for (const verify::RangeCheck& check : ranges) {
+        std::printf("%-40s %4g to %-4g %7.2f%% %7.2f%% %7.2f%%%s\n", check.what.c_str(), check.lowest,
+                    check.highest, 100 * check.texels, 100 * check.below, 100 * check.above,
+                    check.below + check.above > .01 ? "  outside" : "");
+    }
+}
+
 void print_figure(const char* title, const Json& figure) {
     std::printf("%-12s%s %.3g (%s)", title, figure["metric"].get<std::string>().c_str(),
                 figure["value"].get<double>(), figure["evidence"].get<std::string>().c_str());
@@ -65,6 +76,7 @@ void print(const std::string& file, const verify::Inspection& inspection) {
                 inspection.levels.size(), inspection.levels.size() == 1 ? "" : "s", inspection.scale,
                 inspection.units.c_str());
     print_levels(inspection);
+    print_ranges(inspection.ranges);
     std::printf("\n");
     print_certificate(inspection.record);
 }
@@ -75,7 +87,8 @@ ExitCode inspect_command(const Arguments& arguments) {
     Options options(
         "inspect", "[OPTIONS] FILE",
         "Shows what a product holds: size, range and mean of every level, its energy if it is a cube map "
-        "(the integral over the sphere), and the certificate in the record beside it. Values are divided "
+        "(the integral over the sphere), how much of a texture set is outside of what surfaces reflect, and "
+        "the certificate in the record beside it. Values are divided "
         "by the file's scale.");
     options.add_positional({{"file", "FILE", "An EXR, KTX2, DDS, PNG or HDR file."}});
     options.add({"output", {{"json", "", "Prints JSON.", true}}});

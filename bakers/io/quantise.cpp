@@ -71,10 +71,12 @@ void round_to_rgbe(std::vector<float>& texels, std::size_t channels) {
 
 void round_to_unorm8(Level& level, const Image& image, float scale) {
     const std::size_t channels = image.channels.size();
-    for (std::size_t i = 0; i < level.texels.size(); ++i) {
-        const Transfer transfer = channel_transfer(image, i % channels);
-        if (!std::isnan(level.texels[i]))
-            level.texels[i] = from_unorm8(unorm8_of(level.texels[i] * scale, transfer), transfer);
+    for (std::size_t c = 0; c < channels; ++c) {
+        const Transfer transfer = channel_transfer(image, c);
+        for (std::size_t i = c; i < level.texels.size(); i += channels) {
+            float& value = level.texels[i];
+            if (!std::isnan(value)) value = from_unorm8(unorm8_of(value * scale, transfer), transfer);
+        }
     }
 }
 

@@ -81,6 +81,7 @@ class BakeRun {
         timed(Stage::decode, [&] { decode(); });
         timed(Stage::bake, [&] { bake(); });
         if (bake_.certify != job::Certify::none) timed(Stage::certify, [&] { certify(); });
+        release_sources();
         timed(Stage::encode, [&] { encode(); });
         timed(Stage::write, [&] { write(); });
         check_accuracy();
@@ -185,13 +186,19 @@ class BakeRun {
         report_.certify_evaluations = context->counts();
     }
 
+    /// Nobody looks at sources' texels any more; the record still wants the rest.
+    void release_sources() {
+        for (auto& [field, source] : inputs_) source.image.levels.clear();
+    }
+
     void encode() {
         const io::FileInfo info{pixel(), metadata(job_, bake_, product_), bake_.name};
-        for (const Image& image : product_.images) {
+        for (Image& image : product_.images) {
             const fs::path file = files_.empty() ? fs::path(bake_.file) : named_file(image.name);
             std::vector<std::byte> bytes = io::encode(bake_.format, image, info);
             outputs_.push_back({file, io::hash_bytes(bytes.data(), bytes.size()), bytes.size()});
             files_.push_back(std::move(bytes));
+            for (Level& level : image.levels) level.texels = {};
         }
         // A product without images is the document of its format; the main file comes first.
         std::ranges::stable_partition(product_.documents,

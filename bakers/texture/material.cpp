@@ -62,21 +62,29 @@ Json gltf_material(const Layout& layout, float specular_unit) {
 
 }  // namespace
 
-Json properties_json(const TextureParams& params, const Layout& layout, const Findings& findings,
-                     const Sources& sources, float specular_unit) {
+Json properties_json(const TextureParams& params, const Layout& layout, const Survey& survey,
+                     const Findings& findings, const Sources& sources, float specular_unit) {
     Json json{{"size", {sources.width(), sources.height()}},
               {"packing", enum_name(params.packing)},
               {"images", channels_json(layout)}};
     if (layout.has_residual) json["dielectric_f0_unit"] = specular_unit;
-    json["surface"] = findings.surface;
-    if (!findings.surface_word.empty()) json["surface_word"] = findings.surface_word;
-    json["calibration"] = findings.calibration;
-    json["specular_scale"] = findings.specular_scale;
-    json["diffuse_alpha"] = findings.alpha;
+    const Calibration& calibration = survey.calibration;
+    json["surface"] = calibration.surface;
+    if (!calibration.word.empty()) json["surface_word"] = calibration.word;
+    json["calibration"] = kind_name(calibration.kind);
+    json["specular_scale"] = calibration.scale;
+    json["diffuse_alpha"] = sources.has_opacity() && params.opacity.empty() ? "opacity" : "nothing";
     if (sources.has_normal()) {
-        json["normal_green"] = findings.green_down ? "down" : "up";
-        json["green_correlation"] = findings.green_correlation;
+        json["normal_green"] = survey.green_down ? "down" : "up";
+        json["green_correlation"] = survey.green_correlation;
     }
+    const auto add = [&](const char* name, const std::optional<double>& value) {
+        if (value) json[name] = *value;
+    };
+    add("gloss_correlation", survey.doubts.gloss_correlation);
+    add("occlusion_correlation", survey.doubts.occlusion_correlation);
+    add("exponent_median", survey.doubts.exponent_median);
+    add("exponent_max", survey.doubts.exponent_max);
     json["mean_metallic"] = findings.metallic;
     json["mean_confidence"] = findings.confidence;
     json["low_confidence"] = findings.low_confidence;

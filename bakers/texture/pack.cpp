@@ -144,23 +144,16 @@ pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layo
                                                 layout.coupling);
 }
 
-std::vector<Level> pack(const TextureParams&, const Layout& layout, const MapLevel& level,
-                        const std::vector<pbr::MetallicMaterial<float>>& materials, float specular_unit,
-                        Context& context) {
-    std::vector<Level> levels;
-    for (const PackedImage& image : layout.images) {
-        const std::size_t channels = image.channels.size();
-        Level packed{level.width, level.height, std::vector<float>(level.texels() * channels)};
-        context.parallel_for(level.height, 16, [&](std::int64_t begin, std::int64_t end) {
-            const std::size_t last = static_cast<std::size_t>(end) * level.width;
-            for (std::size_t i = static_cast<std::size_t>(begin) * level.width; i < last; ++i)
-                for (std::size_t c = 0; c < channels; ++c)
-                    packed.texels[i * channels + c] =
-                        encoded(image.channels[c], level, materials[i], i, specular_unit);
-        });
-        levels.push_back(std::move(packed));
+void pack(const PackedImage& image, const MapLevel& level, std::size_t begin, std::size_t end,
+          const pbr::MetallicMaterial<float>* materials, float specular_unit, std::size_t to,
+          std::vector<float>& packed) {
+    const std::size_t channels = image.channels.size();
+    for (std::size_t c = 0; c < channels; ++c) {
+        const Held held = image.channels[c];
+        float* values = packed.data() + to * channels + c;
+        for (std::size_t i = begin; i < end; ++i, values += channels)
+            *values = encoded(held, level, materials[i - begin], i, specular_unit);
     }
-    return levels;
 }
 
 Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x,

@@ -49,10 +49,11 @@ Layout layout_of(const TextureParams& params, bool has_opacity);
 pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,
                                          const MapLevel& level, std::size_t texel, const Colour& tolerance);
 
-/// A level of every image of the layout. `specular_unit` divides dielectric_f0.
-std::vector<Level> pack(const TextureParams& params, const Layout& layout, const MapLevel& level,
-                        const std::vector<pbr::MetallicMaterial<float>>& materials, float specular_unit,
-                        Context& context);
+/// Packs texels [begin, end) of a level into an image of the layout, from texel `to` of `packed` on.
+/// materials[i - begin] is that of texel i; `specular_unit` divides dielectric_f0.
+void pack(const PackedImage& image, const MapLevel& level, std::size_t begin, std::size_t end,
+          const pbr::MetallicMaterial<float>* materials, float specular_unit, std::size_t to,
+          std::vector<float>& packed);
 
 /// The material and perceptual roughness of a texel of stored images.
 struct Unpacked {

@@ -13,21 +13,6 @@
 namespace pbrbake::texture {
 namespace {
 
-/// Slope of IEC 61966-2-1's decoding curve over the square root of the linear value, in 256 steps.
-const std::array<float, 257>& srgb_slopes() {
-    static const std::array<float, 257> table = [] {
-        std::array<float, 257> slopes{};
-        for (std::size_t i = 0; i < slopes.size(); ++i) {
-            const double root = static_cast<double>(i) / 256, linear = root * root;
-            slopes[i] = static_cast<float>(
-                linear <= .0031308 ? 1 / 12.92
-                                   : 2.4 / 1.055 * pbr::exp_exact(1.4 / 2.4 * pbr::log_exact(linear)));
-        }
-        return slopes;
-    }();
-    return table;
-}
-
 bool varies(const Image& image, int channel) {
     const std::vector<float>& texels = image.levels.front().texels;
     const std::size_t channels = image.channels.size();
@@ -43,13 +28,16 @@ static_assert(static_cast<int>(Norm::over_pi) == static_cast<int>(pbr::PhongNorm
 
 }  // namespace
 
-float half_step(float linear, int bits, bool is_srgb) {
-    if (bits == 0) return 0;
-    const float step = .5f / static_cast<float>((1 << std::min(bits, 16)) - 1);
-    if (!is_srgb) return step;
-    const float root = std::sqrt(std::clamp(linear, 0.f, 1.f));
-    return step * srgb_slopes()[static_cast<std::size_t>(root * 256)];
-}
+const std::array<float, 257> kSrgbSlopes = [] {
+    std::array<float, 257> slopes{};
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        const double root = static_cast<double>(i) / 256, linear = root * root;
+        slopes[i] = static_cast<float>(
+            linear <= .0031308 ? 1 / 12.92
+                               : 2.4 / 1.055 * pbr::exp_exact(1.4 / 2.4 * pbr::log_exact(linear)));
+    }
+    return slopes;
+}();
 
 Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(params), inputs_(inputs) {
     for (const auto& [field, source] : inputs) {
@@ -65,6 +53,7 @@ Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(pa
     occlusion_ = map_of("occlusion", 0);
     choose_gloss();
     choose_opacity();
+    tabulate_gloss();
     const bool coupled =
         params.diffuse_coupling == Coupling::fresnel ||
         (params.diffuse_coupling == Coupling::automatic && params.model == Model::specular_gloss);
@@ -151,7 +140,14 @@ float Sources::exponent(float gloss) const {
     return -1;
 }
 
-float Sources::perceptual_roughness(int x, int y, float& n) const {
+float Sources::exponent_at(int x, int y) const {
+    float gloss = 0;
+    fetch(gloss_, x, y, &gloss, 1);
+    return exponent(gloss * static_cast<float>(params_.gloss_factor));
+}
+
+/// Of a gloss value times its factor; `n` becomes the exponent.
+float Sources::perceptual_roughness(float gloss, float& n) const {
     const bool is_phong = params_.model == Model::phong;
     const auto of_exponent = [&](float power) {
         const float blinn = is_phong ? pbr::blinn_phong_from_phong(power) : power;
@@ -159,9 +155,6 @@ float Sources::perceptual_roughness(int x, int y, float& n) const {
     };
     n = static_cast<float>(params_.power);
     if (!gloss_.image) return n > 0 ? of_exponent(n) : .5f;
-    float gloss = 0;
-    fetch(gloss_, x, y, &gloss, 1);
-    gloss *= static_cast<float>(params_.gloss_factor);
     n = exponent(gloss);
     if (n >= 0) return of_exponent(n);
     const float value = std::clamp(gloss, 0.f, 1.f);
@@ -171,6 +164,39 @@ float Sources::perceptual_roughness(int x, int y, float& n) const {
     n = pbr::blinn_phong_from_alpha(pbr::alpha_from_perceptual_roughness(p), fit_of(params_.fit)) /
         (is_phong ? 4.f : 1.f);
     return p;
+}
+
+Sources::Lobe Sources::lobe_of(float gloss) const {
+    Lobe lobe;
+    float n = 0;
+    lobe.perceptual_roughness = perceptual_roughness(gloss * static_cast<float>(params_.gloss_factor), n);
+    if (!has_legacy_lobe()) return lobe;
+    const auto kind = params_.model == Model::phong ? pbr::PhongLobe::mirror : pbr::PhongLobe::blinn;
+    lobe.mean = pbr::phong_albedo(norm_of(params_.norm), kind, n).mean;
+    lobe.ggx = pbr::mean_albedo_ggx(static_cast<double>(lobe.perceptual_roughness));
+    return lobe;
+}
+
+void Sources::tabulate_gloss() {
+    if (!gloss_.image)
+        lobes_.push_back(lobe_of(1));
+    else if (gloss_.bits == 8 && !gloss_.is_srgb)
+        for (int code = 0; code < 256; ++code) lobes_.push_back(lobe_of(static_cast<float>(code / 255.)));
+}
+
+Sources::Lobe Sources::lobe_at(int x, int y) const {
+    if (!gloss_.image) return lobes_.front();
+    float gloss = 0;
+    fetch(gloss_, x, y, &gloss, 1);
+    if (!lobes_.empty() && gloss >= 0 && gloss <= 1) {
+        const auto code = static_cast<std::size_t>(gloss * 255 + .5f);
+        if (static_cast<float>(static_cast<double>(code) / 255.) == gloss) return lobes_[code];
+    }
+    return lobe_of(gloss);
+}
+
+void Sources::row(int y, LegacyTexel* texels) const {
+    for (int x = 0; x < width_; ++x) texels[x] = texel(x, y);
 }
 
 LegacyTexel Sources::texel(int x, int y) const {
@@ -190,25 +216,21 @@ LegacyTexel Sources::texel(int x, int y) const {
     Colour specular = colour(specular_, params_.specular_factor, texel.quantisation.f0);
     if (!specular_.image && specular == Colour(1))
         specular = Colour(static_cast<float>(params_.dielectric_f0));
-    float n = 0;
-    texel.perceptual_roughness = perceptual_roughness(x, y, n);
-    if (params_.model == Model::specular_gloss || !specular_.image) {
+    const Lobe lobe = lobe_at(x, y);
+    texel.perceptual_roughness = lobe.perceptual_roughness;
+    if (!has_legacy_lobe()) {
         texel.reflected = pbr::reflected_from_specular(diffuse, specular, coupling_);
         if (coupling_ == pbr::DiffuseCoupling::fresnel)
             texel.quantisation.diffuse *= 1 - pbr::max_channel(specular);
         return texel;
     }
-    const auto lobe = params_.model == Model::phong ? pbr::PhongLobe::mirror : pbr::PhongLobe::blinn;
-    const float mean = pbr::phong_albedo(norm_of(params_.norm), lobe, n).mean;
-    texel.specular_albedo = specular * mean;
+    texel.specular_albedo = specular * lobe.mean;
     const auto scattering = params_.multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
     const float grey = pbr::mean_channel(texel.specular_albedo);
-    const pbr::SolvedF0 solved = pbr::f0_from_mean_albedo(
-        static_cast<double>(grey), pbr::mean_albedo_ggx(static_cast<double>(texel.perceptual_roughness)),
-        scattering);
+    const pbr::SolvedF0 solved = pbr::f0_from_mean_albedo(static_cast<double>(grey), lobe.ggx, scattering);
     const float scale = grey > 0 ? static_cast<float>(solved.f0) / grey : 0;
     texel.reflected = {diffuse, glm::min(texel.specular_albedo * scale, Colour(1))};
-    texel.quantisation.f0 *= mean * scale;
+    texel.quantisation.f0 *= lobe.mean * scale;
     texel.f0_clamped = solved.clamped || pbr::max_channel(texel.specular_albedo) * scale > 1;
     return texel;
 }

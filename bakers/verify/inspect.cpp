@@ -52,6 +52,7 @@ Inspection inspect(const fs::path& file) {
                           product.scale,
                           product.units,
                           {},
+                          check_ranges(file, product.record),
                           product.record};
     for (int level = 0; level < static_cast<int>(product.image.levels.size()); ++level)
         inspection.levels.push_back(summarise(product.image, level, inspection.scale));
@@ -75,9 +76,18 @@ Json inspection_json(const Inspection& inspection) {
         levels.push_back(
             {{"width", level.width}, {"height", level.height}, {"channels", std::move(channels)}});
     }
-    return {{"format", inspection.format}, {"pixel", inspection.pixel}, {"faces", inspection.faces},
-            {"scale", inspection.scale},   {"units", inspection.units}, {"levels", std::move(levels)},
-            {"record", inspection.record}};
+    Json json{{"format", inspection.format}, {"pixel", inspection.pixel}, {"faces", inspection.faces},
+              {"scale", inspection.scale},   {"units", inspection.units}, {"levels", std::move(levels)}};
+    for (const RangeCheck& check : inspection.ranges)
+        json["ranges"].push_back({{"what", check.what},
+                                  {"lowest", check.lowest},
+                                  {"highest", check.highest},
+                                  {"texels", check.texels},
+                                  {"below", check.below},
+                                  {"above", check.above},
+                                  {"source", check.source}});
+    json["record"] = inspection.record;
+    return json;
 }
 
 }  // namespace pbrbake::verify

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bakers/baker.hpp"
+#include "bakers/verify/plausible.hpp"
 
 namespace pbrbake::verify {
 
@@ -32,6 +33,7 @@ struct Inspection {
     double scale = 1;  ///< of the file; the summaries are divided by it
     std::string units;
     std::vector<LevelSummary> levels;
+    std::vector<RangeCheck> ranges;  ///< of a texture set, else none
     Json record;  ///< the product's entry in X.ext.json or manifest.json beside it; null if neither lists it
 };
 
