@@ -238,7 +238,7 @@ TEST(PlantedChange, OfOneLevelNamesTheLevel) {
                         [](Image& image) {
                             for (float& value : image.levels[2].texels) value *= 0.5f;
                         }),
-                HasSubstr("looks like: level 2: values are 0.500 times"));
+                HasSubstr("looks like: level 2: values are 0.5 times"));
 }
 
 TEST(PlantedChange, OfOneTexelFails) {
