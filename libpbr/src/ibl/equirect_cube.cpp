@@ -1,10 +1,5 @@
 // A whole cube map from an equirect, faster than texel by texel where the picture's axis is one of the
-// cube's.
-//
-// Quarter turns about the axis then take columns to columns, if their number is a multiple of four, and the
-// mirror image in the equator takes rows to rows. So all four faces beside the axis, north and south, share
-// the weights of one half of a face, and the quadrants of both faces that the axis pierces those of one
-// quadrant: weights are found once and used eight times.
+// cube's: eight images of one pattern (src/ibl/cube_images.hpp).
 
 #include <algorithm>
 #include <array>
@@ -12,152 +7,58 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/quadrature.hpp"
+#include "src/ibl/cube_images.hpp"
+#include "src/simd/cube_images_kernel.hpp"
 
 namespace pbr {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kImages = 8;  ///< copies that share their weights
+/// Sums over texels of the pattern in all its images: what is to be read is listed, then read at once.
+class PatternSums {
+  public:
+    explicit PatternSums(int texels) : areas_(texels), sums_(texels * kImageSums) {}
 
-/// Where the pattern of weights is used: texel (i, j) of the pattern is a texel of the cube, columns and rows
-/// of the picture are counted from `column` on and from the north or the south pole.
-struct Image {
-    int column;
-    bool south;
-    long origin, step_i, step_j;  ///< in the cube, texels
-};
-using Images = std::vector<Image>;
+    /// Begins a piece: texels of a column of the picture, from `row` towards the equator, whose weights
+    /// follow.
+    void begin(int texel, int column, int row) { pieces_.push_back({column, row, 0, texel}); }
+    void add(double weight) {
+        ++pieces_.back().count;
+        areas_[static_cast<std::size_t>(pieces_.back().texel)] += weight;
+        weights_.push_back(weight);
+    }
 
-/// How the cube's faces lie about the picture's axis.
-struct Faces {
-    Images beside, pierced;
-    double phase = 0;  ///< of a column's width, from its first edge to a face's middle
+    /// Reads all that was listed.
+    void read(const EquirectView& source, const CubeImages& images) {
+        add_pieces(source, images, pieces_, weights_.data(), sums_.data());
+    }
 
-    /// Nothing if the axis isn't one of the cube's, or quarter turns don't take columns to columns.
-    static std::optional<Faces> of(const EquirectView& source, int size);
+    /// Texel (i, j) of the pattern.
+    void write_mean(int texel, const CubeImages& images, int i, int j, std::span<float> rgb_out) const {
+        const double share = 1 / areas_[static_cast<std::size_t>(texel)];
+        const double* sum = &sums_[static_cast<std::size_t>(texel * kImageSums)];
+        for (const CubeImage& at : images) {
+            float* rgb = &rgb_out[static_cast<std::size_t>(at.origin + i * at.step_i + j * at.step_j) * 3];
+            for (std::size_t c = 0; c < 3; ++c) rgb[c] = static_cast<float>(sum[c] * share);
+            sum += 4;
+        }
+    }
 
   private:
-    int column_of(const EquirectView& source, const glm::dvec3& direction) {
-        const double at = equirect_point(direction).x * source.width;
-        if (beside.empty() && pierced.empty()) phase = at - std::floor(at);
-        return static_cast<int>(std::lround(at - phase));
-    }
-    void add_beside(const EquirectView& source, int size, int face);
-    void add_pierced(const EquirectView& source, int size, int face);
-};
-
-struct FaceVectors {
-    glm::dvec3 normal, s, t;  ///< in the picture's frame
-};
-
-FaceVectors face_vectors(const EquirectView& source, int face) {
-    const glm::dvec3 normal = source.world_to_source * cube_vector(face, 0, 0);
-    return {normal, source.world_to_source * cube_vector(face, 1, 0) - normal,
-            source.world_to_source * cube_vector(face, 0, 1) - normal};
-}
-
-/// True if columns grow from p towards q, which is square to it: u falls with longitude.
-bool is_eastward(const glm::dvec3& p, const glm::dvec3& q) { return q.x * p.z - q.z * p.x < 0; }
-
-std::optional<Faces> Faces::of(const EquirectView& source, int size) {
-    constexpr int kFewestColumns = 64;  // the series of add_wedge are good for their width
-    const auto is_zero = [](double x) { return std::abs(x) < 1e-12; };
-    if (source.width % 4 != 0 || source.width < kFewestColumns) return std::nullopt;
-    Faces faces;
-    for (int face = 0; face < 6; ++face) {
-        const FaceVectors v = face_vectors(source, face);
-        if (is_zero(v.normal.x) && is_zero(v.normal.z))
-            faces.add_pierced(source, size, face);
-        else if (is_zero(v.normal.y) && (is_zero(v.s.y) || is_zero(v.t.y)))
-            faces.add_beside(source, size, face);
-        else
-            return std::nullopt;
-    }
-    return faces;
-}
-
-void Faces::add_beside(const EquirectView& source, int size, int face) {
-    const FaceVectors v = face_vectors(source, face);
-    const bool across_is_s = std::abs(v.s.y) < 1e-12;
-    const glm::dvec3 &across = across_is_s ? v.s : v.t, &up = across_is_s ? v.t : v.s;
-    const long of_i = across_is_s ? 1 : size, of_j = across_is_s ? size : 1;
-    const bool eastward = is_eastward(v.normal, across);
-    const int column = column_of(source, v.normal);
-    for (const bool south : {false, true}) {
-        const bool upward = (up.y > 0) != south;
-        const int first = upward ? size / 2 : size - 1 - size / 2;  // of j
-        beside.push_back({column, south,
-                          static_cast<long>(face) * size * size + first * of_j +
-                              (eastward ? 0 : static_cast<long>(size - 1) * of_i),
-                          eastward ? of_i : -of_i, upward ? of_j : -of_j});
-    }
-}
-
-void Faces::add_pierced(const EquirectView& source, int size, int face) {
-    const FaceVectors v = face_vectors(source, face);
-    struct Axis {
-        glm::dvec3 direction;
-        long x, y;  ///< in texels
-    };
-    std::array<Axis, 4> axes{Axis{v.s, 1, 0}, {v.t, 0, 1}, {-v.s, -1, 0}, {-v.t, 0, -1}};
-    if (!is_eastward(v.s, v.t)) std::swap(axes[1], axes[3]);
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Axis &a = axes[k], &b = axes[(k + 1) % 4];
-        // Texel (0, 0) lies beside the middle towards both axes.
-        const long x = (size - 1 + a.x + b.x) / 2, y = (size - 1 + a.y + b.y) / 2;
-        pierced.push_back({column_of(source, a.direction), v.normal.y < 0,
-                           (static_cast<long>(face) * size + y) * size + x, a.y * size + a.x,
-                           b.y * size + b.x});
-    }
-}
-
-/// Sums over one texel of the pattern, in all its images.
-struct Sums {
-    double flux[kImages][3] = {}, area = 0;
-
-    /// Adds texels of a column of the picture, from `row` towards the equator.
-    void add(const EquirectView& source, const Images& images, int column, int row,
-             const std::vector<double>& weights) {
-        for (const double weight : weights) area += weight;
-        const long count = static_cast<long>(weights.size());
-        for (std::size_t image = 0; image < kImages; ++image) {
-            int x = images[image].column + column;
-            x = x < 0 ? x + source.width : x >= source.width ? x - source.width : x;
-            const bool south = images[image].south;
-            const float* rgb = source.texel(x, south ? source.height - 1 - row : row);
-            const long step = (south ? -3L : 3L) * source.width;
-            double *sum = flux[image], r = sum[0], g = sum[1], b = sum[2];
-            for (long k = 0; k < count; ++k, rgb += step) {
-                const double weight = weights[static_cast<std::size_t>(k)];
-                r += weight * static_cast<double>(rgb[0]);
-                g += weight * static_cast<double>(rgb[1]);
-                b += weight * static_cast<double>(rgb[2]);
-            }
-            sum[0] = r, sum[1] = g, sum[2] = b;
-        }
-    }
-
-    void write_means(const Images& images, int i, int j, std::span<float> rgb_out) const {
-        for (std::size_t image = 0; image < kImages; ++image) {
-            const Image& at = images[image];
-            const auto texel = static_cast<std::size_t>(at.origin + i * at.step_i + j * at.step_j);
-            for (std::size_t c = 0; c < 3; ++c)
-                rgb_out[texel * 3 + c] = static_cast<float>(flux[image][c] / area);
-        }
-    }
+    std::vector<double> areas_, sums_, weights_;
+    std::vector<ColumnPiece> pieces_;
 };
 
 /// The picture, its rows, and the phase of its columns against the pattern's.
 struct Pattern {
     const EquirectView& source;
-    const Images& images;
+    const CubeImages& images;
     double phase;
     int size;
     const std::vector<double>& row_cosines;  ///< between rows, falling
@@ -176,23 +77,27 @@ class BesideStrip {
   public:
     /// Texels [first, last) of the pattern's j.
     BesideStrip(const Pattern& pattern, int first, int last)
-        : p_(pattern), first_(first), last_(last), sums_(static_cast<std::size_t>(last - first)) {}
+        : p_(pattern), first_(first), last_(last), sums_(pattern.size * (last - first)) {}
 
     void fill(std::span<float> rgb_out) {
-        for (int i = 0; i < p_.size; ++i) {
-            std::fill(sums_.begin(), sums_.end(), Sums());
-            add_line(2.0 * i / p_.size - 1, 2.0 * (i + 1) / p_.size - 1);
-            for (int j = first_; j < last_; ++j)
-                sums_[static_cast<std::size_t>(j - first_)].write_means(p_.images, i, j, rgb_out);
-        }
+        for (int i = 0; i < p_.size; ++i) add_line(i);
+        sums_.read(p_.source, p_.images);
+        for (int i = 0; i < p_.size; ++i)
+            for (int j = first_; j < last_; ++j) sums_.write_mean(texel(i, j), p_.images, i, j, rgb_out);
     }
 
   private:
     /// A walk along one meridian, from texel to texel.
     struct Walk {
         double a2, weight;  ///< 1 + a^2, and what an interval of cosines counts
-        double low;         ///< cosine of colatitude
-        int row;            ///< that holds it
+        double low, high;   ///< cosines of colatitude of the texel's edges
+        int row;            ///< that holds the upper one
+
+        /// What lies in a row.
+        double share(const Pattern& pattern, int row_of_picture) const {
+            const double* cosine = &pattern.row_cosines[static_cast<std::size_t>(row_of_picture)];
+            return weight * std::max(0.0, std::min(high, cosine[0]) - std::max(low, cosine[1]));
+        }
     };
 
     double boundary(int column) const {
@@ -203,51 +108,46 @@ class BesideStrip {
     /// b at the lower edge of texel j: texel 0 straddles the equator where the size is odd.
     double edge(int j) const { return (2.0 * j - p_.size % 2) / p_.size; }
 
-    void add_line(double from, double to) {
+    int texel(int i, int j) const { return i * (last_ - first_) + j - first_; }
+
+    void add_line(int i) {
+        const double from = 2.0 * i / p_.size - 1, to = 2.0 * (i + 1) / p_.size - 1;
         int column =
             static_cast<int>(std::floor(atan2_exact(from, 1) / (2 * kPi) * p_.source.width + p_.phase));
         for (double at = from; at < to; ++column) {
             const double end = std::clamp(boundary(column + 1), at, to);
-            if (end - at > 1e-15) add_piece(column, at, end);
+            if (end - at > 1e-15) add_piece(i, column, at, end);
             at = end;
         }
     }
 
-    void add_piece(int column, double from, double to) {
+    void add_piece(int i, int column, double from, double to) {
         static const QuadratureRule rule = gauss_legendre(2);
         std::array<Walk, 2> walks;
         for (std::size_t k = 0; k < 2; ++k) {
             const double a = from + (to - from) * rule.nodes[k], a2 = 1 + a * a, b = edge(first_);
             const double low = b / std::sqrt(a2 + b * b);
-            walks[k] = {a2, rule.weights[k] * (to - from) / a2, low, p_.row_of(low)};
+            walks[k] = {a2, rule.weights[k] * (to - from) / a2, low, low, p_.row_of(low)};
         }
         for (int j = first_; j < last_; ++j) {
             const double b = edge(j + 1);
             const int bottom = std::max(walks[0].row, walks[1].row);
-            weights_.clear();
-            for (Walk& walk : walks) step(walk, b / std::sqrt(walk.a2 + b * b), bottom);
-            std::reverse(weights_.begin(), weights_.end());
-            sums_[static_cast<std::size_t>(j - first_)].add(
-                p_.source, p_.images, column, bottom + 1 - static_cast<int>(weights_.size()), weights_);
-        }
-    }
-
-    /// Adds the weights of rows up to `high`, counted upwards from `bottom`.
-    void step(Walk& walk, double high, int bottom) {
-        for (;; --walk.row) {
-            const double top = std::min(high, p_.row_cosines[static_cast<std::size_t>(walk.row)]);
-            const auto place = static_cast<std::size_t>(bottom - walk.row);
-            if (weights_.size() <= place) weights_.resize(place + 1);
-            weights_[place] += walk.weight * (top - walk.low);
-            walk.low = top;
-            if (top >= high || walk.row == 0) break;
+            for (Walk& walk : walks) {
+                walk.high = b / std::sqrt(walk.a2 + b * b);
+                while (walk.row > 0 && p_.row_cosines[static_cast<std::size_t>(walk.row)] < walk.high)
+                    --walk.row;
+            }
+            const int top = std::min(walks[0].row, walks[1].row);
+            sums_.begin(texel(i, j), column, top);
+            for (int row = top; row <= bottom; ++row)
+                sums_.add(walks[0].share(p_, row) + walks[1].share(p_, row));
+            for (Walk& walk : walks) walk.low = walk.high;
         }
     }
 
     const Pattern& p_;
     int first_, last_;
-    std::vector<Sums> sums_;
-    std::vector<double> weights_;
+    PatternSums sums_;
 };
 
 double cross(const glm::dvec2& p, const glm::dvec2& q) { return p.x * q.y - p.y * q.x; }
@@ -265,12 +165,11 @@ class PiercedQuadrant {
 
     /// All texels of one j.
     void fill_row(int j, std::span<float> rgb_out) const {
-        std::vector<double> weights;
-        for (int i = 0; i < p_.size / 2; ++i) {
-            Sums sums;
-            add_texel({edge(i), edge(i + 1), edge(j), edge(j + 1)}, sums, weights);
-            sums.write_means(p_.images, i, j, rgb_out);
-        }
+        PatternSums sums(p_.size / 2);
+        for (int i = 0; i < p_.size / 2; ++i)
+            add_texel(i, {edge(i), edge(i + 1), edge(j), edge(j + 1)}, sums);
+        sums.read(p_.source, p_.images);
+        for (int i = 0; i < p_.size / 2; ++i) sums.write_mean(i, p_.images, i, j, rgb_out);
     }
 
   private:
@@ -280,7 +179,7 @@ class PiercedQuadrant {
 
     double edge(int k) const { return 2.0 * k / p_.size; }
 
-    void add_texel(const Box& box, Sums& sums, std::vector<double>& weights) const {
+    void add_texel(int i, const Box& box, PatternSums& sums) const {
         // Corners by their angle about the middle; the one in the middle, if any, has none.
         std::array<glm::dvec2, 4> corners{
             glm::dvec2(box.a1, box.b0), {box.a0, box.b0}, {box.a1, box.b1}, {box.a0, box.b1}};
@@ -296,10 +195,10 @@ class PiercedQuadrant {
         for (std::size_t k = 1; k < count; ++k) {
             const glm::dvec2 corner = glm::normalize(corners[k]);
             for (; cross(boundary(wedge + 1), corner) > 0; ++wedge) {
-                add_wedge(wedge, at, boundary(wedge + 1), box, row, sums, weights);
+                add_wedge(i, wedge, at, boundary(wedge + 1), box, row, sums);
                 at = boundary(wedge + 1);
             }
-            add_wedge(wedge, at, corner, box, row, sums, weights);
+            add_wedge(i, wedge, at, corner, box, row, sums);
             at = corner;
         }
     }
@@ -318,8 +217,8 @@ class PiercedQuadrant {
     }
 
     /// Adds what lies between unit vectors p and q, q to the east of it by a small angle.
-    void add_wedge(int wedge, const glm::dvec2& p, const glm::dvec2& q, const Box& box, int& row, Sums& sums,
-                   std::vector<double>& weights) const {
+    void add_wedge(int i, int wedge, const glm::dvec2& p, const glm::dvec2& q, const Box& box, int& row,
+                   PatternSums& sums) const {
         const double sine = cross(p, q);
         if (sine < 1e-15) return;
         const double sine2 = sine * sine, angle = sine * (1 + sine2 * (1.0 / 6 + sine2 * 3 / 40));
@@ -333,15 +232,14 @@ class PiercedQuadrant {
         const double highest = std::max(rays[0].high, rays[1].high);
         while (row > 0 && cosines[static_cast<std::size_t>(row)] < highest) --row;
         while (row + 1 < p_.source.height && cosines[static_cast<std::size_t>(row) + 1] >= highest) ++row;
-        weights.clear();
+        sums.begin(i, wedge, row);
         const double lowest = std::min(rays[0].low, rays[1].low);
         for (auto r = static_cast<std::size_t>(row); cosines[r] > lowest; ++r) {
             double weight = 0;
             for (const Ray& of : rays)
                 weight += std::max(0.0, std::min(of.high, cosines[r]) - std::max(of.low, cosines[r + 1]));
-            weights.push_back(weight * angle / 2);
+            sums.add(weight * angle / 2);
         }
-        sums.add(p_.source, p_.images, wedge, row, weights);
     }
 
     /// The part of a meridian within a box, by cosines of colatitude.
@@ -360,7 +258,7 @@ class PiercedQuadrant {
 };
 
 /// Rows that the patterns leave out: those of pierced faces whose middle lies in a texel.
-void fill_pierced_rows(const EquirectView& source, int size, const Images& pierced, const ForEach& each,
+void fill_pierced_rows(const EquirectView& source, int size, const CubeImages& pierced, const ForEach& each,
                        std::span<float> rgb_out) {
     const std::size_t stride = static_cast<std::size_t>(size) * 3;
     each(2 * size, [&](int k) {
@@ -375,7 +273,7 @@ void fill_pierced_rows(const EquirectView& source, int size, const Images& pierc
 
 void resample_area(const EquirectView& source, int size, const ForEach& each, std::span<float> rgb_out) {
     const std::size_t stride = static_cast<std::size_t>(size) * 3;
-    const std::optional<Faces> faces = Faces::of(source, size);
+    const std::optional<CubeFaces> faces = CubeFaces::of(source, size);
     if (!faces)
         return each(6 * size, [&](int row) {
             resample_area(source, size, row / size, row % size,
@@ -384,8 +282,9 @@ void resample_area(const EquirectView& source, int size, const ForEach& each, st
     std::vector<double> row_cosines;
     for (int r = 0; r <= source.height; ++r)
         row_cosines.push_back(sin_cos_pi(static_cast<double>(r) / source.height).cos);
-    // Strips are narrow so that the rows of the picture they read stay in the cache from column to column.
-    constexpr int kStrip = 8;
+    // Strips are narrow so that the rows of the picture they read stay in the cache from column to column,
+    // although rows are a power of two apart, or near.
+    constexpr int kStrip = 2;
     const int half = (size + 1) / 2, strips = (half + kStrip - 1) / kStrip;
     const bool even = size % 2 == 0;
     const Pattern beside{source, faces->beside, faces->phase, size, row_cosines};
