@@ -14,45 +14,45 @@
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/quadrature.hpp"
 #include "src/ibl/cube_images.hpp"
-#include "src/simd/cube_images_kernel.hpp"
 
 namespace pbr {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Sums over texels of the pattern in all its images: what is to be read is listed, then read at once.
-class PatternSums {
-  public:
-    explicit PatternSums(int texels) : areas_(texels), sums_(texels * kImageSums) {}
+/// Sums over one texel of the pattern, in all its images.
+struct Sums {
+    double flux[kCubeImages][3] = {}, area = 0;
 
-    /// Begins a piece: texels of a column of the picture, from `row` towards the equator, whose weights
-    /// follow.
-    void begin(int texel, int column, int row) { pieces_.push_back({column, row, 0, texel}); }
-    void add(double weight) {
-        ++pieces_.back().count;
-        areas_[static_cast<std::size_t>(pieces_.back().texel)] += weight;
-        weights_.push_back(weight);
-    }
-
-    /// Reads all that was listed.
-    void read(const EquirectView& source, const CubeImages& images) {
-        add_pieces(source, images, pieces_, weights_.data(), sums_.data());
-    }
-
-    /// Texel (i, j) of the pattern.
-    void write_mean(int texel, const CubeImages& images, int i, int j, std::span<float> rgb_out) const {
-        const double share = 1 / areas_[static_cast<std::size_t>(texel)];
-        const double* sum = &sums_[static_cast<std::size_t>(texel * kImageSums)];
-        for (const CubeImage& at : images) {
-            float* rgb = &rgb_out[static_cast<std::size_t>(at.origin + i * at.step_i + j * at.step_j) * 3];
-            for (std::size_t c = 0; c < 3; ++c) rgb[c] = static_cast<float>(sum[c] * share);
-            sum += 4;
+    /// Adds texels of a column of the picture, from `row` towards the equator.
+    void add(const EquirectView& source, const CubeImages& images, int column, int row,
+             const std::vector<double>& weights) {
+        for (const double weight : weights) area += weight;
+        const long count = static_cast<long>(weights.size());
+        for (std::size_t image = 0; image < kCubeImages; ++image) {
+            int x = images[image].column + column;
+            x = x < 0 ? x + source.width : x >= source.width ? x - source.width : x;
+            const bool south = images[image].south;
+            const float* rgb = source.texel(x, south ? source.height - 1 - row : row);
+            const long step = (south ? -3L : 3L) * source.width;
+            double *sum = flux[image], r = sum[0], g = sum[1], b = sum[2];
+            for (long k = 0; k < count; ++k, rgb += step) {
+                const double weight = weights[static_cast<std::size_t>(k)];
+                r += weight * static_cast<double>(rgb[0]);
+                g += weight * static_cast<double>(rgb[1]);
+                b += weight * static_cast<double>(rgb[2]);
+            }
+            sum[0] = r, sum[1] = g, sum[2] = b;
         }
     }
 
-  private:
-    std::vector<double> areas_, sums_, weights_;
-    std::vector<ColumnPiece> pieces_;
+    void write_means(const CubeImages& images, int i, int j, std::span<float> rgb_out) const {
+        for (std::size_t image = 0; image < kCubeImages; ++image) {
+            const CubeImage& at = images[image];
+            const auto texel = static_cast<std::size_t>(at.origin + i * at.step_i + j * at.step_j);
+            for (std::size_t c = 0; c < 3; ++c)
+                rgb_out[texel * 3 + c] = static_cast<float>(flux[image][c] / area);
+        }
+    }
 };
 
 /// The picture, its rows, and the phase of its columns against the pattern's.
@@ -77,27 +77,23 @@ class BesideStrip {
   public:
     /// Texels [first, last) of the pattern's j.
     BesideStrip(const Pattern& pattern, int first, int last)
-        : p_(pattern), first_(first), last_(last), sums_(pattern.size * (last - first)) {}
+        : p_(pattern), first_(first), last_(last), sums_(static_cast<std::size_t>(last - first)) {}
 
     void fill(std::span<float> rgb_out) {
-        for (int i = 0; i < p_.size; ++i) add_line(i);
-        sums_.read(p_.source, p_.images);
-        for (int i = 0; i < p_.size; ++i)
-            for (int j = first_; j < last_; ++j) sums_.write_mean(texel(i, j), p_.images, i, j, rgb_out);
+        for (int i = 0; i < p_.size; ++i) {
+            std::fill(sums_.begin(), sums_.end(), Sums());
+            add_line(2.0 * i / p_.size - 1, 2.0 * (i + 1) / p_.size - 1);
+            for (int j = first_; j < last_; ++j)
+                sums_[static_cast<std::size_t>(j - first_)].write_means(p_.images, i, j, rgb_out);
+        }
     }
 
   private:
     /// A walk along one meridian, from texel to texel.
     struct Walk {
         double a2, weight;  ///< 1 + a^2, and what an interval of cosines counts
-        double low, high;   ///< cosines of colatitude of the texel's edges
-        int row;            ///< that holds the upper one
-
-        /// What lies in a row.
-        double share(const Pattern& pattern, int row_of_picture) const {
-            const double* cosine = &pattern.row_cosines[static_cast<std::size_t>(row_of_picture)];
-            return weight * std::max(0.0, std::min(high, cosine[0]) - std::max(low, cosine[1]));
-        }
+        double low;         ///< cosine of colatitude
+        int row;            ///< that holds it
     };
 
     double boundary(int column) const {
@@ -108,46 +104,51 @@ class BesideStrip {
     /// b at the lower edge of texel j: texel 0 straddles the equator where the size is odd.
     double edge(int j) const { return (2.0 * j - p_.size % 2) / p_.size; }
 
-    int texel(int i, int j) const { return i * (last_ - first_) + j - first_; }
-
-    void add_line(int i) {
-        const double from = 2.0 * i / p_.size - 1, to = 2.0 * (i + 1) / p_.size - 1;
+    void add_line(double from, double to) {
         int column =
             static_cast<int>(std::floor(atan2_exact(from, 1) / (2 * kPi) * p_.source.width + p_.phase));
         for (double at = from; at < to; ++column) {
             const double end = std::clamp(boundary(column + 1), at, to);
-            if (end - at > 1e-15) add_piece(i, column, at, end);
+            if (end - at > 1e-15) add_piece(column, at, end);
             at = end;
         }
     }
 
-    void add_piece(int i, int column, double from, double to) {
+    void add_piece(int column, double from, double to) {
         static const QuadratureRule rule = gauss_legendre(2);
         std::array<Walk, 2> walks;
         for (std::size_t k = 0; k < 2; ++k) {
             const double a = from + (to - from) * rule.nodes[k], a2 = 1 + a * a, b = edge(first_);
             const double low = b / std::sqrt(a2 + b * b);
-            walks[k] = {a2, rule.weights[k] * (to - from) / a2, low, low, p_.row_of(low)};
+            walks[k] = {a2, rule.weights[k] * (to - from) / a2, low, p_.row_of(low)};
         }
         for (int j = first_; j < last_; ++j) {
             const double b = edge(j + 1);
             const int bottom = std::max(walks[0].row, walks[1].row);
-            for (Walk& walk : walks) {
-                walk.high = b / std::sqrt(walk.a2 + b * b);
-                while (walk.row > 0 && p_.row_cosines[static_cast<std::size_t>(walk.row)] < walk.high)
-                    --walk.row;
-            }
-            const int top = std::min(walks[0].row, walks[1].row);
-            sums_.begin(texel(i, j), column, top);
-            for (int row = top; row <= bottom; ++row)
-                sums_.add(walks[0].share(p_, row) + walks[1].share(p_, row));
-            for (Walk& walk : walks) walk.low = walk.high;
+            weights_.clear();
+            for (Walk& walk : walks) step(walk, b / std::sqrt(walk.a2 + b * b), bottom);
+            std::reverse(weights_.begin(), weights_.end());
+            sums_[static_cast<std::size_t>(j - first_)].add(
+                p_.source, p_.images, column, bottom + 1 - static_cast<int>(weights_.size()), weights_);
+        }
+    }
+
+    /// Adds the weights of rows up to `high`, counted upwards from `bottom`.
+    void step(Walk& walk, double high, int bottom) {
+        for (;; --walk.row) {
+            const double top = std::min(high, p_.row_cosines[static_cast<std::size_t>(walk.row)]);
+            const auto place = static_cast<std::size_t>(bottom - walk.row);
+            if (weights_.size() <= place) weights_.resize(place + 1);
+            weights_[place] += walk.weight * (top - walk.low);
+            walk.low = top;
+            if (top >= high || walk.row == 0) break;
         }
     }
 
     const Pattern& p_;
     int first_, last_;
-    PatternSums sums_;
+    std::vector<Sums> sums_;
+    std::vector<double> weights_;
 };
 
 double cross(const glm::dvec2& p, const glm::dvec2& q) { return p.x * q.y - p.y * q.x; }
@@ -165,11 +166,12 @@ class PiercedQuadrant {
 
     /// All texels of one j.
     void fill_row(int j, std::span<float> rgb_out) const {
-        PatternSums sums(p_.size / 2);
-        for (int i = 0; i < p_.size / 2; ++i)
-            add_texel(i, {edge(i), edge(i + 1), edge(j), edge(j + 1)}, sums);
-        sums.read(p_.source, p_.images);
-        for (int i = 0; i < p_.size / 2; ++i) sums.write_mean(i, p_.images, i, j, rgb_out);
+        std::vector<double> weights;
+        for (int i = 0; i < p_.size / 2; ++i) {
+            Sums sums;
+            add_texel({edge(i), edge(i + 1), edge(j), edge(j + 1)}, sums, weights);
+            sums.write_means(p_.images, i, j, rgb_out);
+        }
     }
 
   private:
@@ -179,7 +181,7 @@ class PiercedQuadrant {
 
     double edge(int k) const { return 2.0 * k / p_.size; }
 
-    void add_texel(int i, const Box& box, PatternSums& sums) const {
+    void add_texel(const Box& box, Sums& sums, std::vector<double>& weights) const {
         // Corners by their angle about the middle; the one in the middle, if any, has none.
         std::array<glm::dvec2, 4> corners{
             glm::dvec2(box.a1, box.b0), {box.a0, box.b0}, {box.a1, box.b1}, {box.a0, box.b1}};
@@ -195,10 +197,10 @@ class PiercedQuadrant {
         for (std::size_t k = 1; k < count; ++k) {
             const glm::dvec2 corner = glm::normalize(corners[k]);
             for (; cross(boundary(wedge + 1), corner) > 0; ++wedge) {
-                add_wedge(i, wedge, at, boundary(wedge + 1), box, row, sums);
+                add_wedge(wedge, at, boundary(wedge + 1), box, row, sums, weights);
                 at = boundary(wedge + 1);
             }
-            add_wedge(i, wedge, at, corner, box, row, sums);
+            add_wedge(wedge, at, corner, box, row, sums, weights);
             at = corner;
         }
     }
@@ -217,8 +219,8 @@ class PiercedQuadrant {
     }
 
     /// Adds what lies between unit vectors p and q, q to the east of it by a small angle.
-    void add_wedge(int i, int wedge, const glm::dvec2& p, const glm::dvec2& q, const Box& box, int& row,
-                   PatternSums& sums) const {
+    void add_wedge(int wedge, const glm::dvec2& p, const glm::dvec2& q, const Box& box, int& row, Sums& sums,
+                   std::vector<double>& weights) const {
         const double sine = cross(p, q);
         if (sine < 1e-15) return;
         const double sine2 = sine * sine, angle = sine * (1 + sine2 * (1.0 / 6 + sine2 * 3 / 40));
@@ -232,14 +234,15 @@ class PiercedQuadrant {
         const double highest = std::max(rays[0].high, rays[1].high);
         while (row > 0 && cosines[static_cast<std::size_t>(row)] < highest) --row;
         while (row + 1 < p_.source.height && cosines[static_cast<std::size_t>(row) + 1] >= highest) ++row;
-        sums.begin(i, wedge, row);
+        weights.clear();
         const double lowest = std::min(rays[0].low, rays[1].low);
         for (auto r = static_cast<std::size_t>(row); cosines[r] > lowest; ++r) {
             double weight = 0;
             for (const Ray& of : rays)
                 weight += std::max(0.0, std::min(of.high, cosines[r]) - std::max(of.low, cosines[r + 1]));
-            sums.add(weight * angle / 2);
+            weights.push_back(weight * angle / 2);
         }
+        sums.add(p_.source, p_.images, wedge, row, weights);
     }
 
     /// The part of a meridian within a box, by cosines of colatitude.
@@ -282,9 +285,8 @@ void resample_area(const EquirectView& source, int size, const ForEach& each, st
     std::vector<double> row_cosines;
     for (int r = 0; r <= source.height; ++r)
         row_cosines.push_back(sin_cos_pi(static_cast<double>(r) / source.height).cos);
-    // Strips are narrow so that the rows of the picture they read stay in the cache from column to column,
-    // although rows are a power of two apart, or near.
-    constexpr int kStrip = 2;
+    // Strips are narrow so that the rows of the picture they read stay in the cache from column to column.
+    constexpr int kStrip = 8;
     const int half = (size + 1) / 2, strips = (half + kStrip - 1) / kStrip;
     const bool even = size % 2 == 0;
     const Pattern beside{source, faces->beside, faces->phase, size, row_cosines};

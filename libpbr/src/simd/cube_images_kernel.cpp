@@ -5,8 +5,6 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 
 #include "src/simd/cube_images_kernel.hpp"
@@ -35,46 +33,11 @@ class FourFloats {
         return source_.texel(x, image.south ? source_.height - 1 - row : row);
     }
 
-    /// From a row of an image to the next one.
-    HWY_INLINE long row_step(const CubeImage& image) const {
-        return (image.south ? -3L : 3L) * source_.width;
-    }
-
   private:
     const EquirectView& source_;
     const float* last_;
     float copy_of_last_[4] = {};
 };
-
-void add_pieces_of(const EquirectView& source, const CubeImages& images, std::span<const ColumnPiece> pieces,
-                   const double* weights, double* sums) {
-    const hn::CappedTag<double, 4> d;
-    const hn::Rebind<float, decltype(d)> narrow;
-    constexpr std::size_t kAhead = 24;  // pieces between asking for texels and using them
-    const FourFloats picture(source);
-    for (const CubeImage& image : images) {  // one after the other: each has its own part of the picture
-        const double* of_piece = weights;
-        for (std::size_t p = 0; p < pieces.size(); ++p) {
-            const ColumnPiece &piece = pieces[p], &ahead = pieces[std::min(p + kAhead, pieces.size() - 1)];
-            const float* soon = picture.texel(image, ahead.column, ahead.row);
-            for (int k = 0; k < ahead.count; ++k) hwy::Prefetch(soon + k * picture.row_step(image));
-            double* sum = sums + piece.texel * kImageSums;
-            const float* first = picture.texel(image, piece.column, piece.row);
-            const long step = picture.row_step(image);
-            for (std::size_t channel = 0; channel < 4; channel += hn::Lanes(d)) {
-                auto total = hn::LoadU(d, sum + channel);
-                const float* texel = first;
-                for (int k = 0; k < piece.count; ++k, texel += step) {
-                    const auto value = hn::LoadU(narrow, picture.at(texel) + channel);
-                    total = hn::Add(total, hn::Mul(hn::Set(d, of_piece[k]), hn::PromoteTo(d, value)));
-                }
-                hn::StoreU(total, d, sum + channel);
-            }
-            of_piece += piece.count;
-        }
-        sums += 4;
-    }
-}
 
 void interpolate_images_of(const EquirectView& source, const CubeImages& images,
                            std::span<const BilinearPoint> points, int j, std::span<float> rgb_out) {
@@ -115,15 +78,9 @@ HWY_AFTER_NAMESPACE();
 namespace pbr {
 namespace {
 
-HWY_EXPORT(add_pieces_of);
 HWY_EXPORT(interpolate_images_of);
 
 }  // namespace
-
-void add_pieces(const EquirectView& source, const CubeImages& images, std::span<const ColumnPiece> pieces,
-                const double* weights, double* sums) {
-    HWY_DYNAMIC_DISPATCH(add_pieces_of)(source, images, pieces, weights, sums);
-}
 
 void interpolate_images(const EquirectView& source, const CubeImages& images,
                         std::span<const BilinearPoint> points, int j, std::span<float> rgb_out) {
