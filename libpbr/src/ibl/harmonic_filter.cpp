@@ -227,11 +227,14 @@ std::span<const double> HarmonicSpectrum::of_order(int order) const {
     return {&coefficients_[start(order)], static_cast<std::size_t>(bands_ - order + 1) * kParts};
 }
 
-double HarmonicSpectrum::power(int degree) const {
-    double sum = 0;
-    for (int m = 0; m <= degree; ++m)
-        for (const double part : coefficient(degree, m)) sum += (m == 0 ? 1 : 2) * part * part;
-    return sum;
+std::vector<double> HarmonicSpectrum::powers() const {
+    std::vector<double> result(static_cast<std::size_t>(bands_) + 1);
+    for (int m = 0; m <= bands_; ++m) {  // as they lie in memory
+        const std::span<const double> parts = of_order(m);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            result[static_cast<std::size_t>(m) + i / kParts] += (m == 0 ? 1 : 2) * parts[i] * parts[i];
+    }
+    return result;
 }
 
 HarmonicGrid::HarmonicGrid(const HarmonicSpectrum& spectrum, std::span<const double> kernel,

@@ -123,6 +123,7 @@ void LdHarmonic::prepare(const View& source, int rows, double smallest_alpha, in
     const int wanted = bands_for(smallest_alpha, max_error_), bands = std::min(wanted, most_bands);
     const double narrowest = smallest_alpha * wanted / bands;  // of the lobes left to harmonics
     spectrum_.emplace(source, bands, points_a_row(rows, narrowest, max_error_), each, bright_);
+    powers_ = spectrum_->powers();
 }
 
 glm::dvec3 LdHarmonic::mean() const {
@@ -165,7 +166,7 @@ int LdHarmonic::Level::band_limit(const LdHarmonic& of, std::span<const double> 
     int bands = of.bands();
     for (; bands > 0; --bands) {
         const double k = kernel[static_cast<std::size_t>(bands)];
-        const double more = lost + k * k * of.spectrum_->power(bands);
+        const double more = lost + k * k * of.powers_[static_cast<std::size_t>(bands)];
         if (more > allowed) break;
         lost = more;
     }

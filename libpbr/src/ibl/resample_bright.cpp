@@ -1,4 +1,4 @@
-#include "resample_bright.hpp"
+#include "src/ibl/resample_bright.hpp"
 
 #include <algorithm>
 #include <vector>

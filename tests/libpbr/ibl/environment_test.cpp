@@ -154,6 +154,13 @@ TEST(Equirect, AWholeCubeAtOnceHasTheMeansOfItsRows) {
             const std::vector<float> constant(picture.size(), 0.7f);
             resample_area({constant.data(), width, height, frame}, size, for_each_in_turn, whole);
             for (const float value : whole) ASSERT_EQ(value, 0.7f);
+            resample_bilinear(view, size, for_each_in_turn, whole);
+            for (int row = 0; row < 6 * size; ++row) {
+                std::vector<float> alone(static_cast<std::size_t>(size) * 3);
+                resample_bilinear(view, size, row / size, row % size, alone);
+                for (std::size_t i = 0; i < alone.size(); ++i)
+                    ASSERT_NEAR(whole[static_cast<std::size_t>(row) * alone.size() + i], alone[i], 1e-6);
+            }
         }
 }
 

@@ -78,4 +78,7 @@ void resample_area(const CubeView& source, int size, int face, int y, std::span<
 void resample_bilinear(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out);
 void resample_bilinear(const CubeView& source, int size, int face, int y, std::span<float> rgb_out);
 
+/// All faces at once, laid out as resample_area's, several times faster where that is. Differs by rounding.
+void resample_bilinear(const EquirectView& source, int size, const ForEach& each, std::span<float> rgb_out);
+
 }  // namespace pbr
