@@ -6,9 +6,10 @@
 // psi - psi_0,
 //     VoH/NoH = vz + b r,   b = along sin(v) cos(chi),   (1 + (a r)^2) NoL = vz + 2 b r - vz (a r)^2,
 // along being the width that the view sees. The horizon is r_max = (b + sqrt(b^2 + (a vz)^2)) / (a^2 vz).
-// Where chi = pi/2 the lobe is a = x y / along = `across` wide; there r_max swings over a width of vz across /
-// (sin(v) along), which the same sinh widens. A round lobe is even in chi, others are so only where the view
-// lies in a plane of symmetry: both sides are summed.
+// Where chi = pi/2 the lobe is a = x y / along wide; there r_max swings over a width of vz (x y / along) /
+// (sin(v) along). Where the lobe is narrow a(psi) turns over the ratio of the widths. Panels end at both, and a
+// sinh spreads each half panel out from its end. A lobe is even in chi where it is round or the view lies in a
+// plane of symmetry; else both sides are summed.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/simd/dfg_anisotropic_kernel.cpp"
@@ -16,6 +17,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "pbr/numerics/elementary.hpp"
@@ -31,7 +33,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 struct Lobe {
     double x, y;            ///< widths
     double cos_v, sin_v;    ///< the view's azimuth
-    double along, across;   ///< ViewWidths
+    double along;           ///< the width that the view sees
+    double across;          ///< x y / along
     double cos_0, sin_0;    ///< of psi_0
     double longest;         ///< Y beyond which less than 1e-8 of the lobe is left
     bool is_even;           ///< both sides of the view's plane are alike
@@ -44,7 +47,7 @@ Lobe lobe_of(const TangentAzimuth& azimuth, const AnisotropicAlpha<double>& alph
             azimuth.cos,
             azimuth.sin,
             seen.along,
-            seen.across,
+            alpha.x * alpha.y / seen.along,
             alpha.x * azimuth.cos / seen.along,
             alpha.y * azimuth.sin / seen.along,
             log_exact(2 / std::min(alpha.x, alpha.y)) + 20,
@@ -124,9 +127,77 @@ HWY_INLINE Radius<V> radius_at(D d, const Lobe& lobe, Radius<V> radius, V vxy, V
     return radius;
 }
 
+/// Half of a panel of azimuths on one side of the view, in bends: chi = pi/2 (1 + bend). Nodes crowd towards
+/// `anchor`, on the scale of what happens there.
+struct HalfPanel {
+    double anchor;
+    double length;     ///< towards the other end, of either sign
+    double near_axis;  ///< distance at which the narrow axis lets a(psi) turn
+    double to_swing;   ///< distance of the anchor from the swing of the horizon at bend 0
+};
+
+/// Half panels of one side: between the side's ends, the swing and the narrow axis of the lobe, halved.
+struct Side {
+    HalfPanel panels[6];
+    int count = 0;
+};
+
+Side side_of(const Lobe& lobe, double sign) {
+    // The lobe is narrow at psi = pi/2 or 0; a(psi) has its complex zeros min/max of the widths beside it.
+    const double psi_0 = atan2_exact(lobe.sin_0, lobe.cos_0) * (2 / std::numbers::pi);
+    const double turns = sign * ((lobe.x < lobe.y ? 0.0 : 1.0) - psi_0) / 2;  // of pi, from the view
+    const double axis = 2 * (turns - std::floor(turns)) - 1;
+    const double turn = std::min(lobe.x, lobe.y) / std::max(lobe.x, lobe.y) * (2 / std::numbers::pi);
+    const double points[] = {-1, std::min(axis, 0.0), std::max(axis, 0.0), 1};
+    Side side;
+    const auto add = [&](double anchor, double length) {
+        const double direct = std::abs(anchor - axis), from_axis = std::min(direct, 2 - direct);
+        side.panels[side.count++] = {anchor, length, std::sqrt(turn * turn + from_axis * from_axis),
+                                     std::abs(anchor)};
+    };
+    for (int i = 0; i < 3; ++i) {
+        const double half = (points[i + 1] - points[i]) / 2;
+        if (half < 1e-12) continue;
+        add(points[i], half);
+        add(points[i + 1], -half);
+    }
+    return side;
+}
+
+/// The sum over a half panel. `swing` is the scale, in bends, of what happens at bend 0.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Sums<V> panel_sums(D d, const Lobe& lobe, const Radius<V>& view, V vxy, V swing, double sign,
+                              const HalfPanel& panel, const DfgRule::Band& rule) {
+    const V one = hn::Set(d, 1.0), half = hn::Set(d, 0.5);
+    const V from_swing = hn::Sqrt(
+        hn::Add(hn::Mul(swing, swing), hn::Set(d, panel.to_swing * panel.to_swing)));
+    const V scale = hn::Min(from_swing, hn::Set(d, panel.near_axis));
+    const V sinh_k = hn::Div(hn::Set(d, std::abs(panel.length)), scale);
+    const V k = asinh(d, sinh_k), inverse_sinh_k = hn::Div(one, sinh_k);
+    Sums<V> sums{hn::Zero(d), hn::Zero(d)};
+    for (int i = 0; i < rule.azimuth.size(); ++i) {
+        const V y = hn::Mul(k, hn::Set(d, rule.azimuth.nodes[i]));
+        const V e = exp(d, y), inverse = hn::Div(one, e);
+        const V part = hn::Mul(sinh_from_exp(d, y, e, inverse), inverse_sinh_k);
+        const V bend = hn::Add(hn::Set(d, panel.anchor), hn::Mul(hn::Set(d, panel.length), part));
+        const V cos_chi = hn::Neg(sin_half_pi(d, bend));
+        const V sin_chi = hn::Mul(hn::Set(d, sign), sin_half_pi(d, hn::Sub(one, hn::Abs(bend))));
+        // dchi / pi
+        const V weight = hn::Mul(hn::Mul(hn::Set(d, rule.azimuth.weights[i] * std::abs(panel.length) / 2),
+                                         hn::Mul(k, inverse_sinh_k)),
+                                 hn::Mul(half, hn::Add(e, inverse)));
+        const Sums<V> along =
+            radial_sums(d, lobe, radius_at(d, lobe, view, vxy, cos_chi, sin_chi), rule.radial);
+        sums.E = hn::Add(sums.E, hn::Mul(weight, along.E));
+        sums.Fc = hn::Add(sums.Fc, hn::Mul(weight, along.Fc));
+    }
+    return sums;
+}
+
 /// A vector of views: E and Fc by the product rule.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Sums<V> integrate(D d, V NoV, const Lobe& lobe, const DfgRule::Band& rule) {
+HWY_INLINE Sums<V> integrate(D d, V NoV, const Lobe& lobe, const Side& left, const Side& right,
+                             const DfgRule::Band& rule) {
     const V one = hn::Set(d, 1.0);
     const V vz = hn::Min(hn::Max(NoV, hn::Set(d, 1e-10 * lobe.along)), one);  // the horizon is its limit
     const V vxy = hn::Sqrt(hn::Mul(hn::Sub(one, vz), hn::Add(one, vz)));
@@ -136,31 +207,20 @@ HWY_INLINE Sums<V> integrate(D d, V NoV, const Lobe& lobe, const DfgRule::Band& 
     view.vy = hn::Mul(vxy, hn::Set(d, lobe.sin_v));
     view.vz = vz;
     view.root_v = hn::Sqrt(hn::Add(hn::Mul(along_vxy, along_vxy), hn::Mul(vz, vz)));
-    const V width = hn::Div(hn::Max(along_vxy, hn::Set(d, 1e-3 * lobe.across)), hn::Mul(vz, hn::Set(d, lobe.across)));
-    const V sinh_k = hn::Min(hn::Mul(hn::Set(d, std::numbers::pi / 2), width), hn::Set(d, 1e4));
-    const V k = asinh(d, sinh_k), inverse_sinh_k = hn::Div(one, sinh_k);
+    // Swings narrower than 1e-4 hold less of E than that times their width: the even rule straddles them.
+    const V swing = hn::Max(hn::Div(hn::Mul(vz, hn::Set(d, lobe.across * 2 / std::numbers::pi)),
+                                    hn::Max(along_vxy, hn::Set(d, 1e-3 * lobe.across))),
+                            hn::Set(d, 1e-4));
     Sums<V> sums{hn::Zero(d), hn::Zero(d)};
-    for (int i = 0; i < rule.azimuth.size(); ++i) {
-        const V e = exp(d, hn::Mul(k, hn::Set(d, 2 * rule.azimuth.nodes[i] - 1)));
-        const V inverse = hn::Div(one, e);
-        // chi = pi/2 (1 + bend)
-        const V bend = hn::Mul(hn::Mul(hn::Set(d, 0.5), hn::Sub(e, inverse)), inverse_sinh_k);
-        const V cos_chi = hn::Neg(sin_half_pi(d, bend));
-        const V sin_chi = sin_half_pi(d, hn::Sub(one, hn::Abs(bend)));
-        // As in dfg_kernel.cpp, halved: each side is half of the circle.
-        const V weight = hn::Mul(hn::Mul(hn::Set(d, rule.azimuth.weights[i] / 2), hn::Mul(k, inverse_sinh_k)),
-                                 hn::Add(e, inverse));
-        Sums<V> both =
-            radial_sums(d, lobe, radius_at(d, lobe, view, vxy, cos_chi, sin_chi), rule.radial);
-        const Sums<V> other =
-            lobe.is_even ? both
-                         : radial_sums(d, lobe, radius_at(d, lobe, view, vxy, cos_chi, hn::Neg(sin_chi)),
-                                       rule.radial);
-        both.E = hn::Add(both.E, other.E);
-        both.Fc = hn::Add(both.Fc, other.Fc);
-        sums.E = hn::Add(sums.E, hn::Mul(weight, both.E));
-        sums.Fc = hn::Add(sums.Fc, hn::Mul(weight, both.Fc));
-    }
+    const auto add = [&](const Side& side, double sign, double sides) HWY_ATTR {
+        for (int i = 0; i < side.count; ++i) {
+            const Sums<V> panel = panel_sums(d, lobe, view, vxy, swing, sign, side.panels[i], rule);
+            sums.E = hn::Add(sums.E, hn::Mul(hn::Set(d, sides), panel.E));
+            sums.Fc = hn::Add(sums.Fc, hn::Mul(hn::Set(d, sides), panel.Fc));
+        }
+    };
+    add(left, 1, lobe.is_even ? 2 : 1);
+    if (!lobe.is_even) add(right, -1, 1);
     sums.E = hn::Min(sums.E, one);
     sums.Fc = hn::Min(sums.Fc, sums.E);
     return sums;
@@ -172,6 +232,7 @@ void anisotropic_row(const double* NoV, std::size_t count, const TangentAzimuth&
     const hn::ScalableTag<double> d;
     const std::size_t lanes = hn::Lanes(d);
     const Lobe lobe = lobe_of(azimuth, alpha);
+    const Side left = side_of(lobe, 1), right = side_of(lobe, -1);
     double buffer[hn::MaxLanes(d)];
     for (const DfgRule::Band& band : rule.bands) {
         std::size_t view[hn::MaxLanes(d)];
@@ -179,7 +240,7 @@ void anisotropic_row(const double* NoV, std::size_t count, const TangentAzimuth&
         const auto flush = [&]() HWY_ATTR {
             if (used == 0) return;
             for (std::size_t i = 0; i < lanes; ++i) buffer[i] = NoV[view[i < used ? i : 0]];
-            const auto sums = integrate(d, hn::LoadU(d, buffer), lobe, band);
+            const auto sums = integrate(d, hn::LoadU(d, buffer), lobe, left, right, band);
             hn::StoreU(sums.E, d, buffer);
             for (std::size_t i = 0; i < used; ++i) E[view[i]] = buffer[i];
             hn::StoreU(sums.Fc, d, buffer);

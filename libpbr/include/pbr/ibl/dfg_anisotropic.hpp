@@ -21,18 +21,18 @@ struct TangentAzimuth {
     double sin = 0;
 };
 
-/// The widths of a lobe as a view sees them.
+/// The widths of a lobe's slopes along and across a view's azimuth.
 struct ViewWidths {
-    double along;   ///< of the marginal distribution of slopes along the view's azimuth
-    double across;  ///< of slopes across it, those along it given
+    double along;
+    double across;
 };
 
-/// along = sqrt(x^2 cos^2 + y^2 sin^2) (Heitz 2014, eq. 80), across = x y / along: their product is that of
-/// the widths, alpha^2 in Burley's convention. alpha positive. Relative error below 4 ulp.
+/// along = sqrt(x^2 cos^2 + y^2 sin^2), which is all that Smith's masking of the view knows (Heitz 2014, eq.
+/// 80), and across = sqrt(x^2 sin^2 + y^2 cos^2). alpha positive. Relative error below 4 ulp.
 inline ViewWidths view_widths(const TangentAzimuth& azimuth, const AnisotropicAlpha<double>& alpha) {
-    const double x = alpha.x * azimuth.cos, y = alpha.y * azimuth.sin;
-    const double along = std::sqrt(x * x + y * y);
-    return {along, alpha.x * alpha.y / along};
+    const auto width = [&](double x, double y) { return std::sqrt(x * x + y * y); };
+    return {width(alpha.x * azimuth.cos, alpha.y * azimuth.sin),
+            width(alpha.x * azimuth.sin, alpha.y * azimuth.cos)};
 }
 
 /// The cheapest rule whose error is at most `max_error`, for widths in [1e-6, 3.2] whose ratio is at most 10,
