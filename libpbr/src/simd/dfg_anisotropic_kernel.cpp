@@ -1,4 +1,5 @@
-// E and Fc of anisotropic GGX by product quadrature; lanes hold views, so any vector width gives the same bits.
+// E and Fc of anisotropic GGX by product quadrature; lanes hold views, so any vector width gives the same
+// bits.
 //
 // The parametrisation is dfg_kernel.cpp's, in the space in which the lobe is round: half vectors have slopes
 // r (x cos psi, y sin psi) with r = sinh Y and x, y the widths, and density tanh Y / cosh^2 Y over
@@ -7,9 +8,9 @@
 //     VoH/NoH = vz + b r,   b = along sin(v) cos(chi),   (1 + (a r)^2) NoL = vz + 2 b r - vz (a r)^2,
 // along being the width that the view sees. The horizon is r_max = (b + sqrt(b^2 + (a vz)^2)) / (a^2 vz).
 // Where chi = pi/2 the lobe is a = x y / along wide; there r_max swings over a width of vz (x y / along) /
-// (sin(v) along). Where the lobe is narrow a(psi) turns over the ratio of the widths. Panels end at both, and a
-// sinh spreads each half panel out from its end. A lobe is even in chi where it is round or the view lies in a
-// plane of symmetry; else both sides are summed.
+// (sin(v) along). Where the lobe is narrow a(psi) turns over the ratio of the widths. Panels end at both, and
+// a sinh spreads each half panel out from its end. A lobe is even in chi where it is round or the view lies
+// in a plane of symmetry; else both sides are summed.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/simd/dfg_anisotropic_kernel.cpp"
@@ -31,13 +32,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// What is the same for all views: the widths, and the view's azimuth in the surface and in stretched space.
 struct Lobe {
-    double x, y;            ///< widths
-    double cos_v, sin_v;    ///< the view's azimuth
-    double along;           ///< the width that the view sees
-    double across;          ///< x y / along
-    double cos_0, sin_0;    ///< of psi_0
-    double longest;         ///< Y beyond which less than 1e-8 of the lobe is left
-    bool is_even;           ///< both sides of the view's plane are alike
+    double x, y;          ///< widths
+    double cos_v, sin_v;  ///< the view's azimuth
+    double along;         ///< the width that the view sees
+    double across;        ///< x y / along
+    double cos_0, sin_0;  ///< of psi_0
+    double longest;       ///< Y beyond which less than 1e-8 of the lobe is left
+    bool is_even;         ///< both sides of the view's plane are alike
 };
 
 Lobe lobe_of(const TangentAzimuth& azimuth, const AnisotropicAlpha<double>& alpha) {
@@ -67,7 +68,8 @@ struct Sums {
     V E, Fc;
 };
 
-/// Adds the node r = sinh Y, without its azimuth's weight; q = 1 + (a r)^2 and n = q NoL as in dfg_kernel.cpp.
+/// Adds the node r = sinh Y, without its azimuth's weight; q = 1 + (a r)^2 and n = q NoL as in
+/// dfg_kernel.cpp.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void add_node(D d, const Lobe& lobe, const Radius<V>& radius, V r, V cosh, double weight,
                          Sums<V>& sums) {
@@ -117,12 +119,9 @@ HWY_INLINE Sums<V> radial_sums(D d, const Lobe& lobe, const Radius<V>& radius, c
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Radius<V> radius_at(D d, const Lobe& lobe, Radius<V> radius, V vxy, V cos_chi, V sin_chi) {
     const V cos_0 = hn::Set(d, lobe.cos_0), sin_0 = hn::Set(d, lobe.sin_0);
-    radius.slope_x =
-        hn::Mul(hn::Set(d, lobe.x), hn::Sub(hn::Mul(cos_chi, cos_0), hn::Mul(sin_chi, sin_0)));
-    radius.slope_y =
-        hn::Mul(hn::Set(d, lobe.y), hn::Add(hn::Mul(sin_chi, cos_0), hn::Mul(cos_chi, sin_0)));
-    radius.a2 =
-        hn::Add(hn::Mul(radius.slope_x, radius.slope_x), hn::Mul(radius.slope_y, radius.slope_y));
+    radius.slope_x = hn::Mul(hn::Set(d, lobe.x), hn::Sub(hn::Mul(cos_chi, cos_0), hn::Mul(sin_chi, sin_0)));
+    radius.slope_y = hn::Mul(hn::Set(d, lobe.y), hn::Add(hn::Mul(sin_chi, cos_0), hn::Mul(cos_chi, sin_0)));
+    radius.a2 = hn::Add(hn::Mul(radius.slope_x, radius.slope_x), hn::Mul(radius.slope_y, radius.slope_y));
     radius.b = hn::Mul(hn::Mul(vxy, hn::Set(d, lobe.along)), cos_chi);
     return radius;
 }
@@ -169,8 +168,8 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE Sums<V> panel_sums(D d, const Lobe& lobe, const Radius<V>& view, V vxy, V swing, double sign,
                               const HalfPanel& panel, const DfgRule::Band& rule) {
     const V one = hn::Set(d, 1.0), half = hn::Set(d, 0.5);
-    const V from_swing = hn::Sqrt(
-        hn::Add(hn::Mul(swing, swing), hn::Set(d, panel.to_swing * panel.to_swing)));
+    const V from_swing =
+        hn::Sqrt(hn::Add(hn::Mul(swing, swing), hn::Set(d, panel.to_swing * panel.to_swing)));
     const V scale = hn::Min(from_swing, hn::Set(d, panel.near_axis));
     const V sinh_k = hn::Div(hn::Set(d, std::abs(panel.length)), scale);
     const V k = asinh(d, sinh_k), inverse_sinh_k = hn::Div(one, sinh_k);
@@ -227,8 +226,7 @@ HWY_INLINE Sums<V> integrate(D d, V NoV, const Lobe& lobe, const Side& left, con
 }
 
 void anisotropic_row(const double* NoV, std::size_t count, const TangentAzimuth& azimuth,
-                     const AnisotropicAlpha<double>& alpha, const DfgRule& rule, double* E,
-                     double* Fc) {
+                     const AnisotropicAlpha<double>& alpha, const DfgRule& rule, double* E, double* Fc) {
     const hn::ScalableTag<double> d;
     const std::size_t lanes = hn::Lanes(d);
     const Lobe lobe = lobe_of(azimuth, alpha);

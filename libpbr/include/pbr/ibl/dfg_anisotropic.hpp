@@ -36,7 +36,7 @@ inline ViewWidths view_widths(const TangentAzimuth& azimuth, const AnisotropicAl
 }
 
 /// The cheapest rule whose error is at most `max_error`, for widths in [1e-6, 3.2] whose ratio is at most 10,
-/// as in Burley's convention; below 1e-8 the one of 1e-8. max_error > 0.
+/// as in Burley's convention; below 1e-7 the one of 1e-7. max_error > 0.
 DfgRule dfg_anisotropic_rule(double max_error);
 
 /// E and Fc of many views at one azimuth, height-correlated Smith. NoV in [0, 1], alpha positive, the spans
