@@ -45,8 +45,8 @@ Image named_image(const PackedImage& packed) {
 }
 
 Image confidence_image(const Converted& set) {
-    Image image{
-        "confidence", {"R"}, 1, {{set.level.width, set.level.height, set.confidence}}, Transfer::linear};
+    Image image{"confidence",    {"R"}, 1, false, {{set.level.width, set.level.height, set.confidence}},
+                Transfer::linear};
     return image;
 }
 
@@ -69,7 +69,7 @@ Image difference_image(const Sources& sources, const Layout& layout, const Conve
             heat.texels[i] = std::min(1.f, static_cast<float>(delta_e(before, after)) / kFullScale);
         }
     });
-    return {"difference", {"R"}, 1, {std::move(heat)}, Transfer::linear};
+    return {"difference", {"R"}, 1, false, {std::move(heat)}, Transfer::linear};
 }
 
 /// Adds what triangular noise of one code's width takes from banding, where codes are 8 bits.
