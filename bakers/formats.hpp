@@ -16,7 +16,8 @@ struct Format {
     std::string_view name;  ///< also the file's extension
     std::vector<PixelType> pixels;
     int max_channels;
-    bool is_chain;  ///< holds cube maps and mip levels
+    bool is_chain;   ///< holds cube maps and mip levels
+    bool is_volume;  ///< holds 3D textures
 
     bool is_document() const { return pixels.empty(); }
 };

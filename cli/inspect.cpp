@@ -11,12 +11,15 @@ namespace pbrbake::cli {
 namespace {
 
 void print_levels(const verify::Inspection& inspection) {
-    const bool is_cube = inspection.faces == 6;
+    const bool is_cube = inspection.faces == 6 && !inspection.is_volume;
     std::printf("%-6s %-11s %-8s %11s %11s %11s%s\n", "level", "size", "channel", "min", "max", "mean",
                 is_cube ? "      energy" : "");
     for (std::size_t i = 0; i < inspection.levels.size(); ++i) {
         const verify::LevelSummary& level = inspection.levels[i];
-        const std::string size = std::to_string(level.width) + "x" + std::to_string(level.height);
+        const std::string size =
+            std::to_string(level.width) + "x" + std::to_string(level.height) +
+            (inspection.is_volume ? std::string("x").append(std::to_string(inspection.faces))
+                                  : std::string());
         for (std::size_t c = 0; c < level.channels.size(); ++c) {
             const verify::ChannelSummary& channel = level.channels[c];
             std::printf("%-6s %-11s %-8s %11.5g %11.5g %11.5g", c == 0 ? std::to_string(i).c_str() : "",
@@ -72,9 +75,11 @@ void print_certificate(const Json& record) {
 
 void print(const std::string& file, const verify::Inspection& inspection) {
     std::printf("%s: %s, %s, %s, %zu level%s, scale %g, %s\n\n", file.c_str(), inspection.format.c_str(),
-                inspection.faces == 6 ? "cube map" : "picture", inspection.pixel.c_str(),
-                inspection.levels.size(), inspection.levels.size() == 1 ? "" : "s", inspection.scale,
-                inspection.units.c_str());
+                inspection.is_volume    ? "volume"
+                : inspection.faces == 6 ? "cube map"
+                                        : "picture",
+                inspection.pixel.c_str(), inspection.levels.size(), inspection.levels.size() == 1 ? "" : "s",
+                inspection.scale, inspection.units.c_str());
     print_levels(inspection);
     print_ranges(inspection.ranges);
     std::printf("\n");

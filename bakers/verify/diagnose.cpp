@@ -59,9 +59,9 @@ class Diagnosis {
         if (differs_[static_cast<std::size_t>(level_)] == 0) return "";
         consider(factor());
         consider(gamma());
-        consider(b_.faces == 6 ? moved_faces() : turned_picture());
+        consider(b_.is_cube() ? moved_faces() : turned_picture());
         consider(shift());
-        consider(b_.faces == 6 ? probe_roughness() : table_roughness());
+        consider(b_.is_cube() ? probe_roughness() : table_roughness());
         return best_.text;
     }
 

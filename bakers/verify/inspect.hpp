@@ -28,7 +28,8 @@ struct LevelSummary {
 
 struct Inspection {
     std::string format, pixel;
-    int faces = 1;
+    int faces = 1;  ///< of a volume: its slices
+    bool is_volume = false;
     std::vector<std::string> channels;
     double scale = 1;  ///< of the file; the summaries are divided by it
     std::string units;

@@ -144,7 +144,7 @@ void PictureBook::take(const StudiedCase& studied, const StudyPoint& point, cons
     const std::size_t index = studied.points.size() - 1;
     if (!is_shown(step_of(studied, index), studied.asked.series[point.series].steps.size())) return;
     const Key key{studied.asked.name, index};
-    if (product.image.faces == 6 && reference) {
+    if (product.image.is_cube() && reference) {
         const int level = shown_level(reference->image);
         const double exposure = exposure_of(*reference, level);
         keep(key, {{image(cross_picture(product.image, level, exposure / product.scale, kAround), 2,
