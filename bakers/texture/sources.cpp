@@ -153,12 +153,12 @@ float Sources::perceptual_roughness(float gloss, float& n) const {
         const float blinn = is_phong ? pbr::blinn_phong_from_phong(power) : power;
         return pbr::perceptual_roughness_from_alpha(pbr::alpha_from_blinn_phong(blinn, fit_of(params_.fit)));
     };
-    n = static_cast<float>(params_.power);
-    if (!gloss_.image) return n > 0 ? of_exponent(n) : .5f;
-    n = exponent(gloss);
+    constexpr float kAssumed = .5f;  // of a set that says nothing
+    n = gloss_.image ? exponent(gloss) : params_.power > 0 ? static_cast<float>(params_.power) : -1;
     if (n >= 0) return of_exponent(n);
     const float value = std::clamp(gloss, 0.f, 1.f);
-    const float p = params_.gloss_is == GlossIs::perceptual_roughness ? value
+    const float p = !gloss_.image                                       ? kAssumed
+                    : params_.gloss_is == GlossIs::perceptual_roughness ? value
                     : params_.gloss_is == GlossIs::alpha ? pbr::perceptual_roughness_from_alpha(value)
                                                          : pbr::perceptual_roughness_from_smoothness(value);
     n = pbr::blinn_phong_from_alpha(pbr::alpha_from_perceptual_roughness(p), fit_of(params_.fit)) /

@@ -98,6 +98,27 @@ TEST(Texture, BytesDoNotDependOnThreads) {
     EXPECT_EQ(one.figure("delta_e_mean"), three.figure("delta_e_mean"));
 }
 
+TEST(Texture, ASetWithoutExponentHasTheOneOfTheRoughnessItGets) {
+    TextureParams params = defaults();
+    params.model = Model::blinn_phong;
+    params.calibrate = Calibrate::none;
+    Inputs inputs;
+    inputs["diffuse"] = source(4, 4, 3, 0, [](int, int) { return Rgba{.2f, .2f, .2f, 1}; });
+    inputs["specular"] = source(4, 4, 3, 0, [](int, int) { return Rgba{.1f, .1f, .1f, 1}; });
+    const auto texels = [&] {
+        std::vector<std::vector<float>> values;
+        for (const Image& image : bake_set(params, inputs, PixelType::float32).product.images)
+            values.push_back(image.levels[0].texels);
+        return values;
+    };
+    const auto without = texels();
+    params.power = 30;  // alpha^2 = 2 / (30 + 2) is that of perceptual roughness .5
+    const auto with = texels();
+    ASSERT_EQ(without.size(), with.size());
+    for (std::size_t i = 0; i < with.size(); ++i)
+        for (std::size_t k = 0; k < with[i].size(); ++k) EXPECT_NEAR(without[i][k], with[i][k], 1e-6);
+}
+
 TEST(Texture, BlinnPhongKeepsEnergyAndReportsWhatItCannot) {
     TextureParams params = defaults();
     params.model = Model::blinn_phong;
