@@ -22,7 +22,6 @@ using parse::LightUnit;
 using parse::Severity;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kHalfMax = 65504;
 /// A light counts as gone where it gives 1/256 of what its reference white gets: the last step of 8 bits.
 constexpr double kLastStep = 1. / 256;
 /// A colour or intensity below it is none.

@@ -8,6 +8,7 @@
 #include "bakers/io/io.hpp"
 #include "bakers/job/json_text.hpp"
 #include "bakers/verify/diagnose.hpp"
+#include "bakers/verify/face.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/product_file.hpp"
 #include "bakers/workers.hpp"
@@ -15,8 +16,6 @@
 namespace pbrbake::verify {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::array<const char*, 6> kFaceNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
 std::string size_text(const Level& level) {
     return std::to_string(level.width) + " x " + std::to_string(level.height);

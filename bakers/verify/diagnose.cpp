@@ -24,8 +24,6 @@ constexpr int kShiftSide = 128;  // of the window in a face's middle that shifts
 /// What may be left of a difference for its cause to be named.
 constexpr double kRemainder = 0.3, kRemainderResampled = 0.5;
 
-constexpr std::array<const char*, 6> kFaceNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
-
 /// A cause, and how much of the difference it leaves.
 struct Suspect {
     std::string text;

@@ -1,40 +1,26 @@
 #include "pbr/ibl/dfg_anisotropic.hpp"
 
 #include <cassert>
-#include <iterator>
 
+#include "src/ibl/dfg_rules.hpp"
 #include "src/simd/dfg_anisotropic_kernel.hpp"
 
 namespace pbr {
 namespace {
 
-/// As in dfg.cpp, the azimuth's nodes being those of a half panel; for widths that differ by up to ten times,
-/// held by tests/libpbr/ibl/dfg_anisotropic_test.cpp.
-struct RuleSize {
-    double max_error;
-    struct Nodes {
-        int azimuth, radial;
-    };
-    Nodes bands[4];
-};
-constexpr double kLowestNoV[] = {0.0, 0.01, 0.1, 0.4};
-constexpr RuleSize kRuleSizes[] = {{1e-3, {{10, 24}, {6, 16}, {6, 16}, {5, 12}}},
-                                   {1e-4, {{12, 28}, {12, 20}, {12, 20}, {10, 20}}},
-                                   {1e-5, {{20, 34}, {24, 24}, {24, 20}, {24, 20}}},
-                                   {1e-6, {{36, 40}, {36, 28}, {44, 24}, {36, 24}}},
-                                   {1e-7, {{60, 50}, {60, 40}, {72, 36}, {60, 40}}}};
+/// The azimuth's nodes are those of a half panel; for widths that differ by up to ten times, held by
+/// tests/libpbr/ibl/dfg_anisotropic_test.cpp.
+constexpr DfgRuleSize kRuleSizes[] = {{1e-3, {{{10, 24}, {6, 16}, {6, 16}, {5, 12}}}},
+                                      {1e-4, {{{12, 28}, {12, 20}, {12, 20}, {10, 20}}}},
+                                      {1e-5, {{{20, 34}, {24, 24}, {24, 20}, {24, 20}}}},
+                                      {1e-6, {{{36, 40}, {36, 28}, {44, 24}, {36, 24}}}},
+                                      {1e-7, {{{60, 50}, {60, 40}, {72, 36}, {60, 40}}}}};
 
 }  // namespace
 
 DfgRule dfg_anisotropic_rule(double max_error) {
     assert(max_error > 0);
-    const RuleSize* size = std::begin(kRuleSizes);
-    while (size + 1 != std::end(kRuleSizes) && size->max_error > max_error) ++size;
-    DfgRule rule{{}, size->max_error};
-    for (std::size_t i = 0; i < rule.bands.size(); ++i)
-        rule.bands[i] = {kLowestNoV[i], gauss_legendre(size->bands[i].azimuth),
-                         gauss_legendre(size->bands[i].radial)};
-    return rule;
+    return dfg_rule_of(kRuleSizes, max_error);
 }
 
 void dfg_ggx_anisotropic_row(std::span<const double> NoV, const TangentAzimuth& azimuth,

@@ -23,6 +23,7 @@
 
 #include "pbr/numerics/elementary.hpp"
 #include "src/simd/dfg_anisotropic_kernel.hpp"
+#include "src/simd/dfg_bands.hpp"
 #include "src/simd/vector_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -228,30 +229,11 @@ HWY_INLINE Sums<V> integrate(D d, V NoV, const Lobe& lobe, const Side& left, con
 void anisotropic_row(const double* NoV, std::size_t count, const TangentAzimuth& azimuth,
                      const AnisotropicAlpha<double>& alpha, const DfgRule& rule, double* E, double* Fc) {
     const hn::ScalableTag<double> d;
-    const std::size_t lanes = hn::Lanes(d);
     const Lobe lobe = lobe_of(azimuth, alpha);
     const Side left = side_of(lobe, 1), right = side_of(lobe, -1);
-    double buffer[hn::MaxLanes(d)];
-    for (const DfgRule::Band& band : rule.bands) {
-        std::size_t view[hn::MaxLanes(d)];
-        std::size_t used = 0;
-        const auto flush = [&]() HWY_ATTR {
-            if (used == 0) return;
-            for (std::size_t i = 0; i < lanes; ++i) buffer[i] = NoV[view[i < used ? i : 0]];
-            const auto sums = integrate(d, hn::LoadU(d, buffer), lobe, left, right, band);
-            hn::StoreU(sums.E, d, buffer);
-            for (std::size_t i = 0; i < used; ++i) E[view[i]] = buffer[i];
-            hn::StoreU(sums.Fc, d, buffer);
-            for (std::size_t i = 0; i < used; ++i) Fc[view[i]] = buffer[i];
-            used = 0;
-        };
-        for (std::size_t i = 0; i < count; ++i) {
-            if (&rule.band_of(NoV[i]) != &band) continue;
-            view[used++] = i;
-            if (used == lanes) flush();
-        }
-        flush();
-    }
+    integrate_by_bands(NoV, count, rule, E, Fc, [&](auto views, const DfgRule::Band& band) HWY_ATTR {
+        return integrate(d, views, lobe, left, right, band);
+    });
 }
 
 }  // namespace HWY_NAMESPACE
