@@ -1,4 +1,4 @@
-// Lanes hold channels: any vector width gives the same bits.
+// Lanes hold channels, or the twelve of four texels: any vector width gives the same bits.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/simd/cube_images_kernel.cpp"
@@ -70,6 +70,55 @@ void interpolate_images_of(const EquirectView& source, const CubeImages& images,
     }
 }
 
+/// The texels of a run in an image, up to a multiple of four; copied to `copy` where the picture's row ends.
+HWY_INLINE const float* texels_of_run(const EquirectView& source, const CubeImage& image, const TexelRun& run,
+                                      int padded, std::vector<float>& copy) {
+    int x = image.column + run.column;
+    x = x >= source.width ? x - source.width : x;
+    const int y = image.south ? source.height - 1 - run.row : run.row;
+    if (x + padded <= source.width) return source.texel(x, y);
+    copy.assign(static_cast<std::size_t>(padded) * 3, 0);
+    const int before = std::min(run.count, source.width - x);
+    std::copy_n(source.texel(0, y), 3 * (run.count - before),
+                std::copy_n(source.texel(x, y), 3 * before, copy.data()));
+    return copy.data();
+}
+
+void mean_images_of(const EquirectView& source, const CubeImages& images, const TexelShares& shares, int i,
+                    int j, std::vector<float>& texels, std::span<float> rgb_out) {
+    const hn::CappedTag<double, 4> d;
+    const hn::Rebind<float, decltype(d)> narrow;
+    constexpr std::size_t kTexels = 4, kLanes = 3 * kTexels;
+    for (const CubeImage& image : images) {
+        HWY_ALIGN double sums[kLanes];
+        for (std::size_t part = 0; part < 4; part += hn::Lanes(d)) {
+            auto a = hn::Zero(d), b = hn::Zero(d), c = hn::Zero(d);
+            const double* share = shares.solid_angles.data() + part;
+            for (const TexelRun& run : shares.runs) {
+                const int padded = (run.count + 3) / 4 * 4;
+                const float* rgb = texels_of_run(source, image, run, padded, texels) + part;
+                for (int k = 0; k < padded; k += 4, share += kLanes, rgb += kLanes) {
+                    const auto product = [&](std::size_t at) HWY_ATTR {
+                        return hn::Mul(hn::LoadU(d, share + at),
+                                       hn::PromoteTo(d, hn::LoadU(narrow, rgb + at)));
+                    };
+                    a = hn::Add(a, product(0));
+                    b = hn::Add(b, product(4));
+                    c = hn::Add(c, product(8));
+                }
+            }
+            hn::StoreU(a, d, sums + part);
+            hn::StoreU(b, d, sums + part + 4);
+            hn::StoreU(c, d, sums + part + 8);
+        }
+        float* out =
+            &rgb_out[static_cast<std::size_t>(image.origin + i * image.step_i + j * image.step_j) * 3];
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            out[channel] = static_cast<float>(
+                ((sums[channel] + sums[channel + 3]) + (sums[channel + 6] + sums[channel + 9])) / shares.sum);
+    }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pbr
 HWY_AFTER_NAMESPACE();
@@ -79,12 +128,18 @@ namespace pbr {
 namespace {
 
 HWY_EXPORT(interpolate_images_of);
+HWY_EXPORT(mean_images_of);
 
 }  // namespace
 
 void interpolate_images(const EquirectView& source, const CubeImages& images,
                         std::span<const BilinearPoint> points, int j, std::span<float> rgb_out) {
     HWY_DYNAMIC_DISPATCH(interpolate_images_of)(source, images, points, j, rgb_out);
+}
+
+void mean_images(const EquirectView& source, const CubeImages& images, const TexelShares& shares, int i,
+                 int j, std::vector<float>& texels, std::span<float> rgb_out) {
+    HWY_DYNAMIC_DISPATCH(mean_images_of)(source, images, shares, i, j, texels, rgb_out);
 }
 
 }  // namespace pbr

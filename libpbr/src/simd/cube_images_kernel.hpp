@@ -5,6 +5,7 @@
 
 #include "pbr/ibl/environment.hpp"
 #include "src/ibl/cube_images.hpp"
+#include "src/ibl/texel_shares.hpp"
 
 namespace pbr {
 
@@ -18,5 +19,9 @@ struct BilinearPoint {
 /// Row j of the pattern, interpolated at `points`, one for each i.
 void interpolate_images(const EquirectView& source, const CubeImages& images,
                         std::span<const BilinearPoint> points, int j, std::span<float> rgb_out);
+
+/// Texel (i, j) of the pattern as the mean of the picture's texels by their shares. `texels` is scratch.
+void mean_images(const EquirectView& source, const CubeImages& images, const TexelShares& shares, int i,
+                 int j, std::vector<float>& texels, std::span<float> rgb_out);
 
 }  // namespace pbr
