@@ -11,126 +11,123 @@ namespace {
 
 double cross(const glm::dvec2& p, const glm::dvec2& q) { return p.x * q.y - p.y * q.x; }
 
-/// The angle of (cosine, sine), which have length 1. Error below 1e-12 of it.
-double angle(double sine, double cosine) {
-    constexpr double kSmall = 0.1;  // the first term left out is 3e-12 of the angle there
-    if (std::abs(sine) > kSmall || cosine < 0) return atan2_exact(sine, cosine);
-    const double x = sine * sine;
-    return sine * (1 + x * (1. / 6 + x * (3. / 40 + x * (15. / 336 + x * (105. / 3456)))));
-}
-
 }  // namespace
 
-/// A point of a great circle; s = rho sin(A - A0).
-struct EdgePieces::Point {
-    glm::dvec2 azimuth;
-    double s, m, cosine;
-};
-
-/// A walk eastward along a great circle.
-struct EdgePieces::Walk {
-    const GreatCircle& circle;
-    double sign;  ///< of what is added
-    Point at;
-    int column, row;  ///< that it is in
-    Edge edge;
-};
-
 Graticule::Graticule(int width, int height, double phase) : width_(width), phase_(phase) {
-    for (int row = 0; row <= height; ++row) {
-        const SinCos colatitude = sin_cos_pi(static_cast<double>(row) / height);
-        cosines_.push_back(colatitude.cos);
-        cotangents_.push_back(colatitude.cos / colatitude.sin);
-    }
+    for (int row = 0; row <= height; ++row)
+        cosines_.push_back(sin_cos_pi(static_cast<double>(row) / height).cos);
     for (int column = 0; column < width; ++column) {
         const SinCos azimuth = sin_cos_pi(2 * (column - phase) / width);
         meridians_.emplace_back(azimuth.cos, azimuth.sin);
     }
 }
 
-GreatCircle GreatCircle::through(const glm::dvec3& p, const glm::dvec3& q) {
+std::optional<GreatCircle> circle_through(const glm::dvec3& p, const glm::dvec3& q) {
     constexpr double kOnMeridian = 1e-12;  // what such a circle bounds beside a pole is no share of a texel
     const glm::dvec3 across = glm::cross(p, q);
     const double length = glm::length(across);
-    if (!(std::abs(across.y) > kOnMeridian * length)) return {};
+    if (std::abs(across.y) <= kOnMeridian * length) return std::nullopt;
     const glm::dvec3 normal = across / (across.y > 0 ? length : -length);
-    return {normal.z, -normal.x, normal.y};
+    return GreatCircle{normal.z, -normal.x, normal.y};
 }
 
-EdgePieces::Point EdgePieces::point(const GreatCircle& circle, const glm::dvec2& azimuth) {
-    const double t = circle.u * azimuth.x + circle.v * azimuth.y,
-                 s = circle.u * azimuth.y - circle.v * azimuth.x, m = std::sqrt(circle.n * circle.n + t * t);
-    return {azimuth, s, m, t / m};
+void EdgePieces::add_line(const std::optional<GreatCircle>& circle, std::span<const Corner> corners) {
+    const std::size_t edges = corners.size() - 1;
+    if (!circle) {
+        edges_.resize(edges_.size() + edges);
+        return;
+    }
+    const bool eastward = cross(corners.front().azimuth, corners.back().azimuth) >= 0;
+    place_points(corners, eastward);
+    find_arcs(*circle, points_);
+    for (std::size_t i = 0; i < edges; ++i) {
+        const std::size_t from_west = eastward ? i : edges - 1 - i, begin = corners_[from_west],
+                          end = corners_[from_west + 1];
+        const int row = corners[eastward ? i : i + 1].row;
+        // Columns count from the first on again once an edge begins there.
+        const int turn = columns_[begin] >= graticule_->width() ? graticule_->width() : 0;
+        Walk walk{*circle, eastward ? 1.0 : -1.0, turn, row, {}};
+        walk.edge = {pieces_.size(), 0, columns_[begin] - turn, columns_[end - 1] - turn, row, row, 0};
+        for (std::size_t k = begin; k < end; ++k) add_arc(k, walk);
+        walk.edge.last = pieces_.size();
+        edges_.push_back(walk.edge);
+    }
+}
+
+/// The corners from west to east, and the meridians between.
+void EdgePieces::place_points(std::span<const Corner> corners, bool eastward) {
+    points_.cos.clear(), points_.sin.clear();
+    columns_.clear(), corners_.clear();
+    const auto place = [&](const glm::dvec2& azimuth, int column) {
+        points_.cos.push_back(azimuth.x), points_.sin.push_back(azimuth.y);
+        columns_.push_back(column);
+    };
+    const std::size_t count = corners.size();
+    const Corner& west = eastward ? corners.front() : corners.back();
+    // A corner on a meridian may have been put to either side of it: the line begins where it leads on.
+    int column = west.column;
+    if (cross(graticule_->meridian(column + 1), west.azimuth) >= 0) ++column;
+    if (cross(graticule_->meridian(column), west.azimuth) < 0)
+        column = (column == 0 ? graticule_->width() : column) - 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2& azimuth = corners[eastward ? i : count - 1 - i].azimuth;
+        while (i > 0 && cross(graticule_->meridian(column + 1), azimuth) > 0)
+            ++column, place(graticule_->meridian(column), column);
+        corners_.push_back(columns_.size());
+        place(azimuth, column);
+    }
+}
+
+EdgePieces::Point EdgePieces::point(std::size_t index) const {
+    return {points_.cos[index], points_.sin[index], points_.s[index], points_.m[index],
+            points_.cosine[index]};
 }
 
 /// Where a circle has the colatitude above a row, east (side > 0) or west of its northernmost point.
 EdgePieces::Point EdgePieces::crossing(const GreatCircle& circle, int row, double side) const {
-    const double rho2 = circle.u * circle.u + circle.v * circle.v, t = graticule_->cotangent(row) * circle.n,
+    const double cosine = graticule_->cosine(row), rho2 = circle.u * circle.u + circle.v * circle.v,
+                 m = circle.n / std::sqrt((1 - cosine) * (1 + cosine)), t = m * cosine,
                  s = std::copysign(std::sqrt(std::max(0.0, rho2 - t * t)), side);
-    return {glm::dvec2(circle.u * t - circle.v * s, circle.v * t + circle.u * s) / rho2, s,
-            std::sqrt(circle.n * circle.n + t * t), graticule_->cosine(row)};
+    return {(circle.u * t - circle.v * s) / rho2, (circle.v * t + circle.u * s) / rho2, s, m, cosine};
 }
 
-void EdgePieces::add(const GreatCircle& circle, const Corner& p, const Corner& q) {
-    const std::size_t first = pieces_.size();
-    if (circle.n == 0) {
-        edges_.push_back({first, first, 0, 0, 0, 0, 0});
-        return;
-    }
-    const bool eastward = cross(p.azimuth, q.azimuth) >= 0;
-    const Corner &west = eastward ? p : q, &east = eastward ? q : p;
-    // A corner on a meridian may have been put to either side of it: the walk begins where it leads on.
-    int column = west.column;
-    if (cross(graticule_->meridian(column + 1), west.azimuth) >= 0) ++column;
-    if (cross(graticule_->meridian(column), west.azimuth) < 0) --column;
-    if (column < 0 || column >= graticule_->width())
-        column += column < 0 ? graticule_->width() : -graticule_->width();
-    Walk walk{circle,
-              eastward ? 1.0 : -1.0,
-              point(circle, west.azimuth),
-              column,
-              west.row,
-              {first, first, column, column, west.row, west.row, 0}};
-    const Point end = point(circle, east.azimuth);
-    const double rho2 = circle.u * circle.u + circle.v * circle.v;
-    const bool over_top = walk.at.s < 0 && end.s > 0;
-    const Point top = over_top ? point(circle, glm::dvec2(circle.u, circle.v) / std::sqrt(rho2)) : end;
-    const auto walk_over = [&](const Point& to) {
-        if (walk.at.s < 0 && to.s > 0) walk_to(top, walk);
-        walk_to(to, walk);
+void EdgePieces::add_arc(std::size_t index, Walk& walk) {
+    const bool over_top = points_.s[index] < 0 && points_.s[index + 1] > 0;
+    const double end = points_.cosine[index + 1];
+    if (over_top || end > graticule_->cosine(walk.row) || end < graticule_->cosine(walk.row + 1))
+        return add_steep_arc(index, over_top, walk);
+    add_piece(columns_[index], points_.width[index], points_.below[index], walk);
+}
+
+/// An arc that may leave its row, cut where it does.
+void EdgePieces::add_steep_arc(std::size_t index, bool over_top, Walk& walk) {
+    const GreatCircle& circle = walk.circle;
+    Point at = point(index);
+    const auto go_to = [&](const Point& to) {
+        add_piece(columns_[index], small_arc_sine(at.cos * to.sin - at.sin * to.cos),
+                  small_arc_sine(at.m * to.s - at.s * to.m), walk);
+        at = to;
     };
-    while (cross(graticule_->meridian(walk.column + 1), east.azimuth) > 0) {
-        walk_over(point(circle, graticule_->meridian(walk.column + 1)));
-        ++walk.column;
+    const auto walk_to = [&](const Point& to) {
+        const double side = at.s + to.s;
+        for (; to.cosine < graticule_->cosine(walk.row + 1); ++walk.row)
+            go_to(crossing(circle, walk.row + 1, side));
+        for (; to.cosine > graticule_->cosine(walk.row); --walk.row) go_to(crossing(circle, walk.row, side));
+        go_to(to);
+    };
+    if (over_top) {
+        const double rho = std::sqrt(circle.u * circle.u + circle.v * circle.v);
+        walk_to({circle.u / rho, circle.v / rho, 0, 1, std::min(1.0, rho)});
     }
-    walk_over(end);
-    walk.edge.last = pieces_.size();
-    walk.edge.east = walk.column;
-    edges_.push_back(walk.edge);
+    walk_to(point(index + 1));
 }
 
-/// Goes on to a point in the same column, on the same side of the northernmost point.
-void EdgePieces::walk_to(const Point& to, Walk& walk) {
-    const double side = walk.at.s + to.s;
-    for (; walk.row + 1 < graticule_->height() && to.cosine < graticule_->cosine(walk.row + 1); ++walk.row) {
-        add_piece(crossing(walk.circle, walk.row + 1, side), walk);
-        walk.edge.bottom = std::max(walk.edge.bottom, walk.row + 1);
-    }
-    for (; walk.row > 0 && to.cosine > graticule_->cosine(walk.row); --walk.row) {
-        add_piece(crossing(walk.circle, walk.row, side), walk);
-        walk.edge.top = std::min(walk.edge.top, walk.row - 1);
-    }
-    add_piece(to, walk);
-}
-
-void EdgePieces::add_piece(const Point& to, Walk& walk) {
-    const Point& from = walk.at;
-    const double width = angle(cross(from.azimuth, to.azimuth), glm::dot(from.azimuth, to.azimuth)),
-                 below = angle(to.s * from.m - from.s * to.m, from.m * to.m + from.s * to.s);
-    pieces_.push_back({walk.column, walk.row, walk.sign * width,
+void EdgePieces::add_piece(int column, double width, double below, Walk& walk) {
+    pieces_.push_back({column - walk.turn, walk.row, walk.sign * width,
                        walk.sign * (graticule_->cosine(walk.row) * width - below)});
     walk.edge.width += walk.sign * width;
-    walk.at = to;
+    walk.edge.top = std::min(walk.edge.top, walk.row);
+    walk.edge.bottom = std::max(walk.edge.bottom, walk.row);
 }
 
 }  // namespace pbr

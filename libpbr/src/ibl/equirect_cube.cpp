@@ -61,26 +61,20 @@ std::vector<Pattern> patterns_of(const EquirectView& source, int size) {
 /// Rows [first, last) of a pattern.
 void fill_rows(const EquirectView& source, const Graticule& graticule, const Pattern& pattern, int first,
                int last, std::span<float> rgb_out) {
-    std::vector<float> texels;
-    GridShares shares(graticule, pattern.grid, first);
-    for (int j = first; j < last; ++j) {
-        if (j > first) shares.next_row();
-        for (int i = 0; i < pattern.grid.columns; ++i)
-            mean_images(source, pattern.images, shares.of_texel(i), i, j, texels, rgb_out);
-    }
+    GridShares shares(graticule, pattern.grid, first, last);
+    for (int j = first; j < last; ++j) mean_images(source, pattern.images, shares.of_row(j), j, rgb_out);
 }
 
 }  // namespace
 
 void resample_area(const EquirectView& source, int size, const ForEach& each, std::span<float> rgb_out) {
-    constexpr int kFewestColumns = 8;  // of a picture for GridShares
-    if (source.width < kFewestColumns)
+    if (source.width < Graticule::kFewestColumns)
         return each(6 * size, [&](int row) {
             const std::size_t stride = static_cast<std::size_t>(size) * 3;
             resample_area(source, size, row / size, row % size,
                           rgb_out.subspan(static_cast<std::size_t>(row) * stride, stride));
         });
-    constexpr int kStrip = 8;  // rows, of which a strip traces one too many
+    constexpr int kStrip = 8;  // rows; a line between strips is traced for both
     for (const Pattern& pattern : patterns_of(source, size)) {
         const Graticule graticule(source.width, source.height, pattern.phase);
         const int rows = pattern.grid.rows;

@@ -16,65 +16,62 @@ constexpr double kTurns = 1e-6;
 
 }  // namespace
 
-GridShares::GridShares(const Graticule& graticule, const TexelGrid& grid, int first)
+GridShares::GridShares(const Graticule& graticule, const TexelGrid& grid, int first, int last)
     : graticule_(graticule),
-      grid_(grid),
-      j_(first),
+      columns_(grid.columns),
+      first_(first),
+      rows_(last - first),
       // Columns grow clockwise about +y: seen from outside, the picture's own frame is a mirror image.
       orientation_(glm::dot(glm::cross(grid.s, grid.t), grid.centre) < 0 ? 1 : -1),
-      line_(graticule),
-      line_next_(graticule),
-      across_(graticule) {
-    for (int i = 0; i <= grid.columns; ++i)
-        upright_.push_back(GreatCircle::through(grid.corner(i, 0), grid.corner(i, grid.rows)));
-    trace_line(first, line_, corners_);
-    trace_row();
+      along_(graticule),
+      upright_(graticule) {
+    std::vector<std::vector<Corner>> lines;
+    for (int j = first; j <= last; ++j) {
+        lines.push_back(corners(grid, j));
+        along_.add_line(circle_through(grid.corner(0, j), grid.corner(columns_, j)), lines.back());
+    }
+    std::vector<Corner> upright(lines.size());
+    for (int i = 0; i <= columns_; ++i) {
+        std::ranges::transform(lines, upright.begin(), [&](const auto& line) { return line[i]; });
+        upright_.add_line(circle_through(grid.corner(i, first), grid.corner(i, last)), upright);
+    }
 }
 
-void GridShares::next_row() {
-    ++j_;
-    std::swap(line_, line_next_);
-    std::swap(corners_, corners_next_);
-    trace_row();
-}
-
-std::vector<Corner> GridShares::corners(int j) const {
+std::vector<Corner> GridShares::corners(const TexelGrid& grid, int j) const {
     std::vector<glm::dvec3> directions;
-    for (int i = 0; i <= grid_.columns; ++i) directions.push_back(grid_.corner(i, j));
+    for (int i = 0; i <= columns_; ++i) directions.push_back(grid.corner(i, j));
     std::vector<glm::dvec2> uv(directions.size());
     equirect_points(directions, uv);
+    const int width = graticule_.width(), height = graticule_.height();
     std::vector<Corner> result;
     for (std::size_t i = 0; i < uv.size(); ++i) {
         const glm::dvec3& d = directions[i];
         const double beside = std::sqrt(d.x * d.x + d.z * d.z);
-        const int width = graticule_.width(), height = graticule_.height();
-        const int column = static_cast<int>(std::floor(uv[i].x * width + graticule_.phase()));
-        result.push_back({beside > 0 ? glm::dvec2(-d.z, d.x) / beside : glm::dvec2(1, 0),
-                          column < width ? column : column - width,
+        const int column = static_cast<int>(uv[i].x * width + graticule_.phase());
+        result.push_back({beside > 0 ? glm::dvec2(-d.z, d.x) / beside : glm::dvec2(1, 0), column % width,
                           std::min(static_cast<int>(uv[i].y * height), height - 1)});
     }
     return result;
 }
 
-void GridShares::trace_line(int j, EdgePieces& line, std::vector<Corner>& at) {
-    at = corners(j);
-    line.clear();
-    const GreatCircle circle = GreatCircle::through(grid_.corner(0, j), grid_.corner(grid_.columns, j));
-    for (std::size_t i = 0; i + 1 < at.size(); ++i) line.add(circle, at[i], at[i + 1]);
+const RowShares& GridShares::of_row(int j) {
+    shares_.texels.clear();
+    shares_.groups.clear();
+    shares_.shares.clear();
+    for (int i = 0; i < columns_; ++i) add_texel(outline(i, j - first_));
+    return shares_;
 }
 
-void GridShares::trace_row() {
-    trace_line(j_ + 1, line_next_, corners_next_);
-    across_.clear();
-    for (std::size_t i = 0; i < upright_.size(); ++i) across_.add(upright_[i], corners_[i], corners_next_[i]);
+GridShares::Outline GridShares::outline(int i, int j) const {
+    const Edge &below = along_.edge(j * columns_ + i), &above = along_.edge((j + 1) * columns_ + i),
+               &left = upright_.edge(i * rows_ + j), &right = upright_.edge((i + 1) * rows_ + j);
+    return {Side{&along_, &below, orientation_},
+            {&upright_, &right, orientation_},
+            {&along_, &above, -orientation_},
+            {&upright_, &left, -orientation_}};
 }
 
-const TexelShares& GridShares::of_texel(int i) {
-    const double sign = orientation_;
-    const Outline outline{Side{&line_, &line_.edge(i), sign},
-                          {&across_, &across_.edge(i + 1), sign},
-                          {&line_next_, &line_next_.edge(i), -sign},
-                          {&across_, &across_.edge(i), -sign}};
+void GridShares::add_texel(const Outline& outline) {
     double turn = 0;
     for (const Side& side : outline) turn += side.sign * side.edge->width;
     const Box box = box_about(outline, turn);
@@ -82,8 +79,7 @@ const TexelShares& GridShares::of_texel(int i) {
     areas_.assign(cells, 0);
     widths_.assign(cells, 0);
     for (const Side& side : outline) add_side(side, box);
-    find_shares(box, turn);
-    return shares_;
+    add_shares(box, turn);
 }
 
 /// Beside a pole an outline turns about it, and may have texels of all columns.
@@ -111,24 +107,20 @@ GridShares::Box GridShares::box_about(const Outline& outline, double turn) const
 
 void GridShares::add_side(const Side& side, const Box& box) {
     const int width = graticule_.width();
-    const Edge& edge = *side.edge;
-    for (const EdgePiece *piece = side.edges->piece(edge.first), *end = piece + (edge.last - edge.first);
-         piece < end; ++piece) {
-        int column = piece->column - box.west;
+    for (const EdgePiece& piece : side.edges->pieces(*side.edge)) {
+        int column = piece.column - box.west;
         column = column < 0 ? column + width : column >= width ? column - width : column;
-        const auto cell = static_cast<std::size_t>((piece->row - box.top) * box.columns + column);
-        areas_[cell] += side.sign * piece->area;
-        widths_[cell] += side.sign * piece->width;
+        const auto cell = static_cast<std::size_t>((piece.row - box.top) * box.columns + column);
+        areas_[cell] += side.sign * piece.area;
+        widths_[cell] += side.sign * piece.width;
     }
 }
 
 /// Of each texel in the box: what pieces within it bound, and all of its height times the width of the pieces
 /// below it. About the south pole the outline is closed by the pole.
-void GridShares::find_shares(const Box& box, double turn) {
-    shares_.runs.clear();
-    shares_.solid_angles.clear();
-    shares_.sum = 0;
+void GridShares::add_shares(const Box& box, double turn) {
     const auto columns = static_cast<std::size_t>(box.columns);
+    shares_.texels.push_back({0, 0});
     covered_.assign(columns, 0);
     if (turn < -kTurns)
         for (std::size_t cell = 0; cell < widths_.size(); ++cell) covered_[cell % columns] -= widths_[cell];
@@ -140,11 +132,12 @@ void GridShares::find_shares(const Box& box, double turn) {
             areas[k] += height * covered_[k];
             covered_[k] += widths[k];
         }
-        add_run(box, box.top + row, {areas, columns});
+        add_groups(box, box.top + row, {areas, columns});
     }
+    shares_.texels.back().groups_end = shares_.groups.size();
 }
 
-void GridShares::add_run(const Box& box, int row, std::span<const double> shares) {
+void GridShares::add_groups(const Box& box, int row, std::span<const double> shares) {
     constexpr double kRounding = 1e-10;
     const double least = kRounding * (graticule_.cosine(row) - graticule_.cosine(row + 1)) * 2 *
                          std::numbers::pi / graticule_.width();
@@ -152,15 +145,16 @@ void GridShares::add_run(const Box& box, int row, std::span<const double> shares
     while (first < last && shares[first] < least) ++first;
     while (first < last && shares[last - 1] < least) --last;
     if (first == last) return;
-    const int column = box.west + static_cast<int>(first), width = graticule_.width();
-    shares_.runs.push_back({column < width ? column : column - width, row, static_cast<int>(last - first)});
-    std::vector<double>& out = shares_.solid_angles;
-    std::size_t at = out.size();
-    out.resize(at + (last - first + 3) / 4 * 12);
+    std::size_t at = shares_.shares.size();
+    shares_.shares.resize(at + (last - first + 3) / 4 * 12);
     for (std::size_t k = first; k < last; ++k, at += 3) {
+        if ((k - first) % 4 == 0) {
+            const int column = box.west + static_cast<int>(k), width = graticule_.width();
+            shares_.groups.push_back({column < width ? column : column - width, row});
+        }
         const double share = shares[k] < least ? 0 : shares[k];
-        out[at] = out[at + 1] = out[at + 2] = share;
-        shares_.sum += share;
+        std::fill_n(&shares_.shares[at], 3, share);
+        shares_.texels.back().solid_angle += share;
     }
 }
 

@@ -23,31 +23,32 @@ struct TexelGrid {
     }
 };
 
-/// Texels of the picture side by side: 0 <= column < its width, and on from the first one beyond the last.
-struct TexelRun {
-    int column, row, count;
+/// Four texels of the picture side by side, 0 <= column < its width; beyond the last column follows the
+/// first.
+struct TexelGroup {
+    int column, row;
 };
 
-/// What a texel of the grid is made of.
-struct TexelShares {
-    std::vector<TexelRun> runs;
-    /// Solid angles, sr, by runs: each three times over for the channels of its texel, and zeros up to a
-    /// multiple of four texels.
-    std::vector<double> solid_angles;
-    double sum = 0;  ///< of the solid angles
+/// What the texels of a row of the grid are made of.
+struct RowShares {
+    struct Texel {
+        std::size_t groups_end;  ///< its groups begin where those of the texel before it end
+        double solid_angle;      ///< the sum of its shares, sr
+    };
+    std::vector<Texel> texels;
+    std::vector<TexelGroup> groups;
+    /// Solid angles, sr: twelve a group, three times over those of its texels, for their channels.
+    std::vector<double> shares;
 };
 
-/// Goes over the rows of a grid, which are traced but once. Shares are exact but for rounding; those below
-/// 1e-10 of a texel are left out.
+/// Shares of rows of a grid: exact but for rounding. Those below 1e-10 of a texel are left out.
 class GridShares {
   public:
-    /// Begins with row `first`. Both are referred to. The picture is at least 8 texels wide.
-    GridShares(const Graticule& graticule, const TexelGrid& grid, int first);
+    /// Of rows [first, last). The graticule is referred to.
+    GridShares(const Graticule& graticule, const TexelGrid& grid, int first, int last);
 
-    /// Of the row's texel i; overwritten by the next call.
-    const TexelShares& of_texel(int i);
-
-    void next_row();
+    /// Overwritten by the next call.
+    const RowShares& of_row(int j);
 
   private:
     /// An edge of a texel, with the sign that its pieces have in the outline.
@@ -62,23 +63,20 @@ class GridShares {
         int west, top, columns, rows;
     };
 
-    std::vector<Corner> corners(int j) const;
-    void trace_line(int j, EdgePieces& line, std::vector<Corner>& at);
-    void trace_row();
+    std::vector<Corner> corners(const TexelGrid& grid, int j) const;
+    Outline outline(int i, int j) const;
     Box box_about(const Outline& outline, double turn) const;
+    void add_texel(const Outline& outline);
     void add_side(const Side& side, const Box& box);
-    void find_shares(const Box& box, double turn);
-    void add_run(const Box& box, int row, std::span<const double> shares);
+    void add_shares(const Box& box, double turn);
+    void add_groups(const Box& box, int row, std::span<const double> shares);
 
     const Graticule& graticule_;
-    const TexelGrid& grid_;
-    int j_;
+    int columns_, first_, rows_;
     double orientation_;
-    std::vector<GreatCircle> upright_;            ///< circles of constant i
-    std::vector<Corner> corners_, corners_next_;  ///< at j and j + 1
-    EdgePieces line_, line_next_, across_;        ///< edges at j, at j + 1 and between them
+    EdgePieces along_, upright_;  ///< edges of constant j, line by line, and of constant i
     std::vector<double> areas_, widths_, covered_;
-    TexelShares shares_;
+    RowShares shares_;
 };
 
 }  // namespace pbr

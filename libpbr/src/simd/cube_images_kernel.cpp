@@ -2,6 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/simd/cube_images_kernel.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -70,52 +71,66 @@ void interpolate_images_of(const EquirectView& source, const CubeImages& images,
     }
 }
 
-/// The texels of a run in an image, up to a multiple of four; copied to `copy` where the picture's row ends.
-HWY_INLINE const float* texels_of_run(const EquirectView& source, const CubeImage& image, const TexelRun& run,
-                                      int padded, std::vector<float>& copy) {
-    int x = image.column + run.column;
-    x = x >= source.width ? x - source.width : x;
-    const int y = image.south ? source.height - 1 - run.row : run.row;
-    if (x + padded <= source.width) return source.texel(x, y);
-    copy.assign(static_cast<std::size_t>(padded) * 3, 0);
-    const int before = std::min(run.count, source.width - x);
-    std::copy_n(source.texel(0, y), 3 * (run.count - before),
-                std::copy_n(source.texel(x, y), 3 * before, copy.data()));
-    return copy.data();
+constexpr std::size_t kLanes = 12;  ///< RGB of a group of four texels
+
+/// Where an image has groups of texels, on their way to the cache; those that the end of a row cuts are
+/// copied.
+void find_groups(const EquirectView& source, const CubeImage& image, std::span<const TexelGroup> groups,
+                 std::vector<float>& copies, std::vector<const float*>& found) {
+    const long row_step = 3L * source.width * (image.south ? -1 : 1);
+    const float* first_row = source.texel(0, image.south ? source.height - 1 : 0);
+    found.clear();
+    copies.clear();
+    copies.reserve(groups.size() * kLanes);
+    for (const TexelGroup& group : groups) {
+        int x = image.column + group.column;
+        x = x >= source.width ? x - source.width : x;
+        const float* row = first_row + group.row * row_step;
+        if (x + 4 <= source.width) {
+            found.push_back(row + 3L * x);
+            hwy::Prefetch(found.back());
+        } else {
+            found.push_back(copies.data() + copies.size());
+            copies.insert(copies.end(), row + 3L * x, row + 3L * source.width);
+            copies.insert(copies.end(), row, row + 3L * (x + 4 - source.width));
+        }
+    }
 }
 
-void mean_images_of(const EquirectView& source, const CubeImages& images, const TexelShares& shares, int i,
-                    int j, std::vector<float>& texels, std::span<float> rgb_out) {
+void mean_images_of(const EquirectView& source, const CubeImages& images, const RowShares& row, int j,
+                    std::span<float> rgb_out) {
     const hn::CappedTag<double, 4> d;
     const hn::Rebind<float, decltype(d)> narrow;
-    constexpr std::size_t kTexels = 4, kLanes = 3 * kTexels;
+    std::vector<float> copies;
+    std::vector<const float*> found;
     for (const CubeImage& image : images) {
-        HWY_ALIGN double sums[kLanes];
-        for (std::size_t part = 0; part < 4; part += hn::Lanes(d)) {
-            auto a = hn::Zero(d), b = hn::Zero(d), c = hn::Zero(d);
-            const double* share = shares.solid_angles.data() + part;
-            for (const TexelRun& run : shares.runs) {
-                const int padded = (run.count + 3) / 4 * 4;
-                const float* rgb = texels_of_run(source, image, run, padded, texels) + part;
-                for (int k = 0; k < padded; k += 4, share += kLanes, rgb += kLanes) {
+        find_groups(source, image, row.groups, copies, found);
+        float* out = rgb_out.data() + (image.origin + j * image.step_j) * 3;
+        std::size_t first = 0;
+        for (const RowShares::Texel& texel : row.texels) {
+            HWY_ALIGN double sums[kLanes];
+            for (std::size_t part = 0; part < 4; part += hn::Lanes(d)) {
+                auto a = hn::Zero(d), b = hn::Zero(d), c = hn::Zero(d);
+                for (std::size_t k = first; k < texel.groups_end; ++k) {
                     const auto product = [&](std::size_t at) HWY_ATTR {
-                        return hn::Mul(hn::LoadU(d, share + at),
-                                       hn::PromoteTo(d, hn::LoadU(narrow, rgb + at)));
+                        return hn::Mul(hn::LoadU(d, &row.shares[k * kLanes] + part + at),
+                                       hn::PromoteTo(d, hn::LoadU(narrow, found[k] + part + at)));
                     };
                     a = hn::Add(a, product(0));
                     b = hn::Add(b, product(4));
                     c = hn::Add(c, product(8));
                 }
+                hn::StoreU(a, d, sums + part);
+                hn::StoreU(b, d, sums + part + 4);
+                hn::StoreU(c, d, sums + part + 8);
             }
-            hn::StoreU(a, d, sums + part);
-            hn::StoreU(b, d, sums + part + 4);
-            hn::StoreU(c, d, sums + part + 8);
+            const double scale = 1 / texel.solid_angle;
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                out[channel] = static_cast<float>(
+                    ((sums[channel] + sums[channel + 3]) + (sums[channel + 6] + sums[channel + 9])) * scale);
+            out += image.step_i * 3;
+            first = texel.groups_end;
         }
-        float* out =
-            &rgb_out[static_cast<std::size_t>(image.origin + i * image.step_i + j * image.step_j) * 3];
-        for (std::size_t channel = 0; channel < 3; ++channel)
-            out[channel] = static_cast<float>(
-                ((sums[channel] + sums[channel + 3]) + (sums[channel + 6] + sums[channel + 9])) / shares.sum);
     }
 }
 
@@ -137,9 +152,9 @@ void interpolate_images(const EquirectView& source, const CubeImages& images,
     HWY_DYNAMIC_DISPATCH(interpolate_images_of)(source, images, points, j, rgb_out);
 }
 
-void mean_images(const EquirectView& source, const CubeImages& images, const TexelShares& shares, int i,
-                 int j, std::vector<float>& texels, std::span<float> rgb_out) {
-    HWY_DYNAMIC_DISPATCH(mean_images_of)(source, images, shares, i, j, texels, rgb_out);
+void mean_images(const EquirectView& source, const CubeImages& images, const RowShares& row, int j,
+                 std::span<float> rgb_out) {
+    HWY_DYNAMIC_DISPATCH(mean_images_of)(source, images, row, j, rgb_out);
 }
 
 }  // namespace pbr

@@ -20,8 +20,8 @@ struct BilinearPoint {
 void interpolate_images(const EquirectView& source, const CubeImages& images,
                         std::span<const BilinearPoint> points, int j, std::span<float> rgb_out);
 
-/// Texel (i, j) of the pattern as the mean of the picture's texels by their shares. `texels` is scratch.
-void mean_images(const EquirectView& source, const CubeImages& images, const TexelShares& shares, int i,
-                 int j, std::vector<float>& texels, std::span<float> rgb_out);
+/// Row j of the pattern, each texel the mean of the picture's by their shares.
+void mean_images(const EquirectView& source, const CubeImages& images, const RowShares& row, int j,
+                 std::span<float> rgb_out);
 
 }  // namespace pbr
