@@ -1,7 +1,9 @@
 // A whole cube map of an equirect's means. Where the picture's axis is one of the cube's, eight images of one
-// pattern (src/ibl/cube_images.hpp) share what is found for each of its texels.
+// pattern (src/ibl/cube_images.hpp) share what is found for each of its texels, and eight mirror images where
+// its columns lie alike about the middle of a face.
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -19,18 +21,47 @@ struct Pattern {
     TexelGrid grid;
     CubeImages images;
     double phase = 0;  ///< of the picture's columns against the grid
+    /// Where their mirror images are used, in which column x is reflected - x.
+    CubeImages mirror_images = {};
+    int reflected = 0;
+    bool below_diagonal = false;  ///< mirrored at its diagonal: texels with i <= j are all that is needed
 };
+
+/// Twice the phase, if mirror images of columns are columns.
+std::optional<int> mirror_phase(const CubeFaces& faces) {
+    const double twice = 2 * faces.phase;
+    return std::abs(twice - std::round(twice)) < 1e-9 ? std::optional(static_cast<int>(std::lround(twice)))
+                                                      : std::nullopt;
+}
 
 /// Half a face beside the axis; its lowest row straddles the equator if the size is odd.
 Pattern beside_pattern(const CubeFaces& faces, int size) {
-    return {{{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, size, -size, -(size % 2), size, (size + 1) / 2},
-            faces.beside,
-            faces.phase};
+    Pattern pattern{{{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, size, -size, -(size % 2), size, (size + 1) / 2},
+                    faces.beside,
+                    faces.phase};
+    if (const std::optional<int> twice = mirror_phase(faces)) {
+        pattern.grid.columns = (size + 1) / 2;
+        pattern.reflected = *twice - 1;
+        for (const CubeImage& image : faces.beside)
+            pattern.mirror_images.push_back({image.column, image.south,
+                                             image.origin + (size - 1) * image.step_i, -image.step_i,
+                                             image.step_j});
+    }
+    return pattern;
 }
 
 /// A quadrant of a face that the axis pierces, for even sizes.
-Pattern pierced_pattern(const CubeFaces& faces, int size) {
-    return {{{0, 1, 0}, {0, 0, -1}, {1, 0, 0}, size, 0, 0, size / 2, size / 2}, faces.pierced, faces.phase};
+Pattern pierced_pattern(const EquirectView& source, const CubeFaces& faces, int size) {
+    Pattern pattern{
+        {{0, 1, 0}, {0, 0, -1}, {1, 0, 0}, size, 0, 0, size / 2, size / 2}, faces.pierced, faces.phase};
+    if (const std::optional<int> twice = mirror_phase(faces)) {
+        pattern.below_diagonal = true;
+        pattern.reflected = *twice - 1 + source.width / 4;
+        for (const CubeImage& image : faces.pierced)
+            pattern.mirror_images.push_back(
+                {image.column, image.south, image.origin, image.step_j, image.step_i});
+    }
+    return pattern;
 }
 
 /// A face as it is.
@@ -50,7 +81,7 @@ std::vector<Pattern> patterns_of(const EquirectView& source, int size) {
     }
     patterns.push_back(beside_pattern(*faces, size));
     if (size % 2 == 0) {
-        patterns.push_back(pierced_pattern(*faces, size));
+        patterns.push_back(pierced_pattern(source, *faces, size));
     } else {  // the axis pierces the middle of a texel
         for (const CubeImage& image : {faces->pierced.front(), faces->pierced.back()})
             patterns.push_back(face_pattern(source, size, static_cast<int>(image.origin / size / size)));
@@ -61,8 +92,16 @@ std::vector<Pattern> patterns_of(const EquirectView& source, int size) {
 /// Rows [first, last) of a pattern.
 void fill_rows(const EquirectView& source, const Graticule& graticule, const Pattern& pattern, int first,
                int last, std::span<float> rgb_out) {
-    GridShares shares(graticule, pattern.grid, first, last);
-    for (int j = first; j < last; ++j) mean_images(source, pattern.images, shares.of_row(j), j, rgb_out);
+    TexelGrid grid = pattern.grid;
+    if (pattern.below_diagonal) grid.columns = last;
+    GridShares shares(graticule, grid, first, last);
+    for (int j = first; j < last; ++j) {
+        const RowShares& row = shares.of_row(j);
+        mean_images(source, pattern.images, row, j, rgb_out);
+        if (!pattern.mirror_images.empty())
+            mean_images(source, pattern.mirror_images, mirrored(row, pattern.reflected, source.width), j,
+                        rgb_out);
+    }
 }
 
 }  // namespace
@@ -74,7 +113,7 @@ void resample_area(const EquirectView& source, int size, const ForEach& each, st
             resample_area(source, size, row / size, row % size,
                           rgb_out.subspan(static_cast<std::size_t>(row) * stride, stride));
         });
-    constexpr int kStrip = 8;  // rows; a line between strips is traced for both
+    constexpr int kStrip = 16;  // rows; a line between strips is traced for both
     for (const Pattern& pattern : patterns_of(source, size)) {
         const Graticule graticule(source.width, source.height, pattern.phase);
         const int rows = pattern.grid.rows;

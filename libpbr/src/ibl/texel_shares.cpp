@@ -14,10 +14,25 @@ namespace {
 /// Turns of an outline, rad, that are more than rounding: it goes about a pole or passes through it.
 constexpr double kTurns = 1e-6;
 
+/// Of a texel's solid angle: less is rounding.
+constexpr double kLeast = 1e-10;
+
 }  // namespace
+
+RowShares mirrored(const RowShares& row, int reflected, int width) {
+    RowShares result = row;
+    for (TexelGroup& group : result.groups) {
+        const int column = (reflected - group.column - 3) % width;  // of its last texel
+        group.column = column < 0 ? column + width : column;
+    }
+    for (std::size_t at = 0; at < result.shares.size(); at += 12)
+        std::reverse_copy(&row.shares[at], &row.shares[at] + 12, &result.shares[at]);
+    return result;
+}
 
 GridShares::GridShares(const Graticule& graticule, const TexelGrid& grid, int first, int last)
     : graticule_(graticule),
+      column_width_(2 * std::numbers::pi / graticule.width()),
       columns_(grid.columns),
       first_(first),
       rows_(last - first),
@@ -76,8 +91,7 @@ void GridShares::add_texel(const Outline& outline) {
     for (const Side& side : outline) turn += side.sign * side.edge->width;
     const Box box = box_about(outline, turn);
     const auto cells = static_cast<std::size_t>(box.columns) * static_cast<std::size_t>(box.rows);
-    areas_.assign(cells, 0);
-    widths_.assign(cells, 0);
+    cells_.assign(cells, {});
     for (const Side& side : outline) add_side(side, box);
     add_shares(box, turn);
 }
@@ -110,9 +124,9 @@ void GridShares::add_side(const Side& side, const Box& box) {
     for (const EdgePiece& piece : side.edges->pieces(*side.edge)) {
         int column = piece.column - box.west;
         column = column < 0 ? column + width : column >= width ? column - width : column;
-        const auto cell = static_cast<std::size_t>((piece.row - box.top) * box.columns + column);
-        areas_[cell] += side.sign * piece.area;
-        widths_[cell] += side.sign * piece.width;
+        Cell& cell = cells_[static_cast<std::size_t>((piece.row - box.top) * box.columns + column)];
+        cell.area += side.sign * piece.area;
+        cell.width += side.sign * piece.width;
     }
 }
 
@@ -123,39 +137,36 @@ void GridShares::add_shares(const Box& box, double turn) {
     shares_.texels.push_back({0, 0});
     covered_.assign(columns, 0);
     if (turn < -kTurns)
-        for (std::size_t cell = 0; cell < widths_.size(); ++cell) covered_[cell % columns] -= widths_[cell];
+        for (std::size_t k = 0; k < cells_.size(); ++k) covered_[k % columns] -= cells_[k].width;
     for (int row = box.rows - 1; row >= 0; --row) {
         const double height = graticule_.cosine(box.top + row) - graticule_.cosine(box.top + row + 1);
-        double *areas = &areas_[static_cast<std::size_t>(row) * columns],
-               *widths = &widths_[static_cast<std::size_t>(row) * columns];
+        const std::span cells(&cells_[static_cast<std::size_t>(row) * columns], columns);
         for (std::size_t k = 0; k < columns; ++k) {
-            areas[k] += height * covered_[k];
-            covered_[k] += widths[k];
+            cells[k].area += height * covered_[k];
+            covered_[k] += cells[k].width;
         }
-        add_groups(box, box.top + row, {areas, columns});
+        add_groups(cells, kLeast * height * column_width_, box.west, box.top + row);
     }
     shares_.texels.back().groups_end = shares_.groups.size();
 }
 
-void GridShares::add_groups(const Box& box, int row, std::span<const double> shares) {
-    constexpr double kRounding = 1e-10;
-    const double least = kRounding * (graticule_.cosine(row) - graticule_.cosine(row + 1)) * 2 *
-                         std::numbers::pi / graticule_.width();
-    std::size_t first = 0, last = shares.size();
-    while (first < last && shares[first] < least) ++first;
-    while (first < last && shares[last - 1] < least) --last;
-    if (first == last) return;
-    std::size_t at = shares_.shares.size();
-    shares_.shares.resize(at + (last - first + 3) / 4 * 12);
-    for (std::size_t k = first; k < last; ++k, at += 3) {
-        if ((k - first) % 4 == 0) {
-            const int column = box.west + static_cast<int>(k), width = graticule_.width();
-            shares_.groups.push_back({column < width ? column : column - width, row});
+void GridShares::add_groups(std::span<const Cell> cells, double least, int west, int row) {
+    std::size_t first = 0, last = cells.size();
+    while (first < last && cells[first].area < least) ++first;
+    while (first < last && cells[last - 1].area < least) --last;
+    double sum = 0;
+    for (; first < last; first += 4) {
+        const int column = west + static_cast<int>(first), width = graticule_.width();
+        shares_.groups.push_back({column < width ? column : column - width, row});
+        std::array<double, 12> group{};
+        for (std::size_t k = 0; k < std::min<std::size_t>(4, last - first); ++k) {
+            const double area = cells[first + k].area, share = area < least ? 0 : area;
+            group[3 * k] = group[3 * k + 1] = group[3 * k + 2] = share;
+            sum += share;
         }
-        const double share = shares[k] < least ? 0 : shares[k];
-        std::fill_n(&shares_.shares[at], 3, share);
-        shares_.texels.back().solid_angle += share;
+        shares_.shares.insert(shares_.shares.end(), group.begin(), group.end());
     }
+    shares_.texels.back().solid_angle += sum;
 }
 
 }  // namespace pbr

@@ -41,6 +41,10 @@ struct RowShares {
     std::vector<double> shares;
 };
 
+/// The same of the mirror image, in which column x of the picture is `reflected` - x, up to a turn of `width`
+/// columns.
+RowShares mirrored(const RowShares& row, int reflected, int width);
+
 /// Shares of rows of a grid: exact but for rounding. Those below 1e-10 of a texel are left out.
 class GridShares {
   public:
@@ -63,19 +67,26 @@ class GridShares {
         int west, top, columns, rows;
     };
 
+    /// What an outline's pieces within a texel of the picture sum to.
+    struct Cell {
+        double area = 0, width = 0;
+    };
+
     std::vector<Corner> corners(const TexelGrid& grid, int j) const;
     Outline outline(int i, int j) const;
     Box box_about(const Outline& outline, double turn) const;
     void add_texel(const Outline& outline);
     void add_side(const Side& side, const Box& box);
     void add_shares(const Box& box, double turn);
-    void add_groups(const Box& box, int row, std::span<const double> shares);
+    void add_groups(std::span<const Cell> cells, double least, int west, int row);
 
     const Graticule& graticule_;
+    double column_width_;
     int columns_, first_, rows_;
     double orientation_;
     EdgePieces along_, upright_;  ///< edges of constant j, line by line, and of constant i
-    std::vector<double> areas_, widths_, covered_;
+    std::vector<Cell> cells_;     ///< of the box, by rows
+    std::vector<double> covered_;
     RowShares shares_;
 };
 
