@@ -76,23 +76,21 @@ constexpr std::size_t kLanes = 12;  ///< RGB of a group of four texels
 /// Where an image has groups of texels, on their way to the cache; those that the end of a row cuts are
 /// copied.
 void find_groups(const EquirectView& source, const CubeImage& image, std::span<const TexelGroup> groups,
-                 std::vector<float>& copies, std::vector<const float*>& found) {
-    const long row_step = 3L * source.width * (image.south ? -1 : 1);
+                 std::vector<float>& copies, std::span<const float*> found) {
+    const long width = source.width, row_step = image.south ? -width : width;
     const float* first_row = source.texel(0, image.south ? source.height - 1 : 0);
-    found.clear();
     copies.clear();
     copies.reserve(groups.size() * kLanes);
-    for (const TexelGroup& group : groups) {
-        int x = image.column + group.column;
-        x = x >= source.width ? x - source.width : x;
-        const float* row = first_row + group.row * row_step;
-        if (x + 4 <= source.width) {
-            found.push_back(row + 3L * x);
-            hwy::Prefetch(found.back());
-        } else {
-            found.push_back(copies.data() + copies.size());
-            copies.insert(copies.end(), row + 3L * x, row + 3L * source.width);
-            copies.insert(copies.end(), row, row + 3L * (x + 4 - source.width));
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+        long x = image.column + groups[k].column;
+        x = x >= width ? x - width : x;
+        const float* row = first_row + 3 * groups[k].row * row_step;
+        found[k] = row + 3 * x;
+        hwy::Prefetch(found[k]);
+        if (x + 4 > width) {
+            found[k] = copies.data() + copies.size();
+            copies.insert(copies.end(), row + 3 * x, row + 3 * width);
+            copies.insert(copies.end(), row, row + 3 * (x + 4 - width));
         }
     }
 }
@@ -102,7 +100,7 @@ void mean_images_of(const EquirectView& source, const CubeImages& images, const 
     const hn::CappedTag<double, 4> d;
     const hn::Rebind<float, decltype(d)> narrow;
     std::vector<float> copies;
-    std::vector<const float*> found;
+    std::vector<const float*> found(row.groups.size());
     for (const CubeImage& image : images) {
         find_groups(source, image, row.groups, copies, found);
         float* out = rgb_out.data() + (image.origin + j * image.step_j) * 3;
