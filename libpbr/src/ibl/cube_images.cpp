@@ -25,8 +25,9 @@ bool is_eastward(const glm::dvec3& p, const glm::dvec3& q) { return q.x * p.z - 
 }  // namespace
 
 std::optional<CubeFaces> CubeFaces::of(const EquirectView& source, int size) {
+    constexpr int kFewestColumns = 64;  // smaller pictures have their own ways
     const auto is_zero = [](double x) { return std::abs(x) < 1e-12; };
-    if (source.width % 4 != 0) return std::nullopt;
+    if (source.width % 4 != 0 || source.width < kFewestColumns) return std::nullopt;
     CubeFaces faces;
     for (int face = 0; face < 6; ++face) {
         const FaceVectors v = face_vectors(source, face);

@@ -5,7 +5,6 @@
 // circle, the integral of c dA is known in closed form: each piece of an edge bounds an exactly known area of
 // one texel of the picture.
 
-#include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
