@@ -45,6 +45,20 @@ void ProbeLevel0(benchmark::State& state) {
 }
 BENCHMARK(ProbeLevel0)->Arg(2048)->Arg(8192)->Unit(benchmark::kMillisecond);
 
+/// The same of a picture whose axis is none of the cube's.
+void ProbeLevel0Tilted(benchmark::State& state) {
+    const int width = static_cast<int>(state.range(0));
+    const std::vector<float> rgb = picture(width);
+    EquirectView tilted = view(rgb, width);
+    tilted.world_to_source = glm::dmat3(1, 0, 0, 0, .8, .6, 0, -.6, .8);
+    std::vector<float> cube(std::size_t{kSize} * kSize * 18);
+    for (auto _ : state) {
+        resample_area(tilted, kSize, for_each_in_turn, cube);
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(ProbeLevel0Tilted)->Arg(2048)->Unit(benchmark::kMillisecond);
+
 void ProbeLevel0Bilinear(benchmark::State& state) {
     const int width = static_cast<int>(state.range(0));
     const std::vector<float> rgb = picture(width);

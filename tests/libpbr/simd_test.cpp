@@ -33,7 +33,7 @@ class OneTarget {
 
 struct Results {
     std::vector<double> dfg, exact, near, bright, spectrum;
-    std::vector<float> sampled, mis, harmonic;
+    std::vector<float> sampled, mis, harmonic, means, bilinear;
     bool operator==(const Results&) const = default;
 };
 
@@ -80,6 +80,10 @@ Results run_kernels() {
     // The same numbers as an equirect, with an odd height and a texel apart.
     const EquirectView equirect{cube.data(), 48, 31};
     const std::vector<CubeTexel> apart{{0, 30, 20}};
+    results.means.resize(std::size_t{9} * 9 * 18);
+    resample_area(EquirectView{cube.data(), 64, 23}, 9, for_each_in_turn, results.means);
+    results.bilinear.resize(std::size_t{40} * 40 * 18);
+    resample_bilinear(equirect, 40, for_each_in_turn, results.bilinear);
     results.near.resize(150);
     results.bright.resize(150);
     NearField(equirect, glm::dvec3(0.1), apart, SplitKernel(GgxZonalKernel(0.02), 0.2))
@@ -103,6 +107,8 @@ TEST(Simd, EveryVectorWidthGivesTheSameBits) {
         EXPECT_EQ(results.mis, widest.mis) << hwy::TargetName(target);
         EXPECT_EQ(results.exact, widest.exact) << hwy::TargetName(target);
         EXPECT_EQ(results.harmonic, widest.harmonic) << hwy::TargetName(target);
+        EXPECT_EQ(results.means, widest.means) << hwy::TargetName(target);
+        EXPECT_EQ(results.bilinear, widest.bilinear) << hwy::TargetName(target);
         EXPECT_EQ(results.near, widest.near) << hwy::TargetName(target);
         EXPECT_EQ(results.bright, widest.bright) << hwy::TargetName(target);
         EXPECT_EQ(results.spectrum, widest.spectrum) << hwy::TargetName(target);

@@ -25,7 +25,7 @@ bool is_eastward(const glm::dvec3& p, const glm::dvec3& q) { return q.x * p.z - 
 }  // namespace
 
 std::optional<CubeFaces> CubeFaces::of(const EquirectView& source, int size) {
-    constexpr int kFewestColumns = 64;  // the series of add_wedge are good for their width
+    constexpr int kFewestColumns = 64;  // smaller pictures have their own ways
     const auto is_zero = [](double x) { return std::abs(x) < 1e-12; };
     if (source.width % 4 != 0 || source.width < kFewestColumns) return std::nullopt;
     CubeFaces faces;

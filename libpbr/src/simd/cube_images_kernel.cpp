@@ -1,7 +1,8 @@
-// Lanes hold channels: any vector width gives the same bits.
+// Lanes hold channels, or the twelve of four texels: any vector width gives the same bits.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/simd/cube_images_kernel.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
@@ -70,6 +71,67 @@ void interpolate_images_of(const EquirectView& source, const CubeImages& images,
     }
 }
 
+constexpr std::size_t kLanes = 12;  ///< RGB of a group of four texels
+
+/// Where an image has groups of texels, on their way to the cache; those that the end of a row cuts are
+/// copied.
+void find_groups(const EquirectView& source, const CubeImage& image, std::span<const TexelGroup> groups,
+                 std::vector<float>& copies, std::span<const float*> found) {
+    const long width = source.width, row_step = image.south ? -width : width;
+    const float* first_row = source.texel(0, image.south ? source.height - 1 : 0);
+    copies.clear();
+    copies.reserve(groups.size() * kLanes);
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+        long x = image.column + groups[k].column;
+        x = x >= width ? x - width : x;
+        const float* row = first_row + 3 * groups[k].row * row_step;
+        found[k] = row + 3 * x;
+        hwy::Prefetch(found[k]);
+        if (x + 4 > width) {
+            found[k] = copies.data() + copies.size();
+            copies.insert(copies.end(), row + 3 * x, row + 3 * width);
+            copies.insert(copies.end(), row, row + 3 * (x + 4 - width));
+        }
+    }
+}
+
+void mean_images_of(const EquirectView& source, const CubeImages& images, const RowShares& row, int j,
+                    std::span<float> rgb_out) {
+    const hn::CappedTag<double, 4> d;
+    const hn::Rebind<float, decltype(d)> narrow;
+    std::vector<float> copies;
+    std::vector<const float*> found(row.groups.size());
+    for (const CubeImage& image : images) {
+        find_groups(source, image, row.groups, copies, found);
+        float* out = rgb_out.data() + (image.origin + j * image.step_j) * 3;
+        std::size_t first = 0;
+        for (const RowShares::Texel& texel : row.texels) {
+            HWY_ALIGN double sums[kLanes];
+            for (std::size_t part = 0; part < 4; part += hn::Lanes(d)) {
+                auto a = hn::Zero(d), b = hn::Zero(d), c = hn::Zero(d);
+                for (std::size_t k = first; k < texel.groups_end; ++k) {
+                    const auto product = [&](std::size_t at) HWY_ATTR {
+                        return hn::Mul(hn::LoadU(d, &row.shares[k * kLanes] + part + at),
+                                       hn::PromoteTo(d, hn::LoadU(narrow, found[k] + part + at)));
+                    };
+                    a = hn::Add(a, product(0));
+                    b = hn::Add(b, product(4));
+                    c = hn::Add(c, product(8));
+                }
+                hn::StoreU(a, d, sums + part);
+                hn::StoreU(b, d, sums + part + 4);
+                hn::StoreU(c, d, sums + part + 8);
+            }
+            const double scale = 1 / texel.solid_angle;
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                out[channel] = static_cast<float>(
+                    ((sums[channel] + sums[channel + 3]) + (sums[channel + 6] + sums[channel + 9])) * scale);
+            out += image.step_i * 3;
+            first = texel.groups_end;
+        }
+    }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pbr
 HWY_AFTER_NAMESPACE();
@@ -79,12 +141,18 @@ namespace pbr {
 namespace {
 
 HWY_EXPORT(interpolate_images_of);
+HWY_EXPORT(mean_images_of);
 
 }  // namespace
 
 void interpolate_images(const EquirectView& source, const CubeImages& images,
                         std::span<const BilinearPoint> points, int j, std::span<float> rgb_out) {
     HWY_DYNAMIC_DISPATCH(interpolate_images_of)(source, images, points, j, rgb_out);
+}
+
+void mean_images(const EquirectView& source, const CubeImages& images, const RowShares& row, int j,
+                 std::span<float> rgb_out) {
+    HWY_DYNAMIC_DISPATCH(mean_images_of)(source, images, row, j, rgb_out);
 }
 
 }  // namespace pbr

@@ -5,6 +5,7 @@
 
 #include "pbr/ibl/environment.hpp"
 #include "src/ibl/cube_images.hpp"
+#include "src/ibl/texel_shares.hpp"
 
 namespace pbr {
 
@@ -18,5 +19,9 @@ struct BilinearPoint {
 /// Row j of the pattern, interpolated at `points`, one for each i.
 void interpolate_images(const EquirectView& source, const CubeImages& images,
                         std::span<const BilinearPoint> points, int j, std::span<float> rgb_out);
+
+/// Row j of the pattern, each texel the mean of the picture's by their shares.
+void mean_images(const EquirectView& source, const CubeImages& images, const RowShares& row, int j,
+                 std::span<float> rgb_out);
 
 }  // namespace pbr
