@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <numbers>
-#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "pbr/ibl/ld.hpp"
@@ -202,10 +202,7 @@ class TreeSum {
         walker_(cone, walk);
         ld_add_nodes(walk.far, alpha_, kernel_.normalisation(), sums);
         evaluations_ += walk.far.size();
-        for (const Visit& visit : walk.near) {
-            tree_.blocks().append_points(visit.block, visit.order_index, points_);
-            if (points_.size() >= kBatch) add_points(sums);
-        }
+        for (const Visit& visit : walk.near) add_near(visit, sums);
         add_points(sums);
         return walk.remainder;
     }
@@ -214,6 +211,21 @@ class TreeSum {
     std::uint64_t evaluations() const { return evaluations_; }
 
   private:
+    template <class Sums>
+    void add_near(const Visit& visit, Sums& sums) {
+        if constexpr (std::is_same_v<Sums, LdSingle>) {
+            LatLongPatch patch;
+            if (tree_.blocks().tabulated_patch(visit.block, visit.order_index, patch)) {
+                ld_add_points(patch, alpha_, kernel_.normalisation(), sums);
+                evaluations_ +=
+                    static_cast<std::uint64_t>(patch.width) * patch.height * patch.order * patch.order;
+                return;
+            }
+        }
+        tree_.blocks().append_points(visit.block, visit.order_index, points_);
+        if (points_.size() >= kBatch) add_points(sums);
+    }
+
     template <class Sums>
     void add_points(Sums& sums) {
         ld_add_points(points_, alpha_, kernel_.normalisation(), sums);
@@ -263,7 +275,7 @@ LdTreeError ld_exact(const MomentTree& source, double alpha, double tolerance,
             continue;
         }
         for (std::size_t lane = 0; lane < members.size(); ++lane) {
-            LdSingle single{{group.x[lane], group.y[lane], group.z[lane]}, {}};
+            LdSingle single{members[lane], {}};
             const std::array<double, 4> remainder = tree_sum.add({members[lane], 0}, single);
             finish(first + lane, std::to_array(single.sum), remainder);
         }
