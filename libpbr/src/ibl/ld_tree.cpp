@@ -26,6 +26,10 @@ constexpr double kWidestGroup = 0.1;
 
 constexpr float kBright = 4;  // times the mean
 
+/// What a lamp that the horizon cuts may be off by, over the picture's mean; but no more than 128 points
+/// along a leaf's side, 32 to 8 a texel.
+constexpr double kCutError = 1e-4, kPointsAtHorizon = 128;
+
 constexpr std::size_t kBatch = 512;  // points that are summed at once: they stay in the nearest cache
 
 /// Cosine and sine of an angle in [0, pi].
@@ -146,14 +150,7 @@ class Walker {
                 if (place.level > 0) {
                     push_children(place);
                 } else {
-                    const Angle nearest = difference(difference(apart, spread), angle_of(node.reach));
-                    // Its sine is not above the angle: rather too many points than too few. The errors of
-                    // many texels cancel, but a sun's stands alone and gets a step more.
-                    const int order = ld_order_index(tree_.blocks().texel_angle(), alpha_,
-                                                     nearest.cos > 0 ? nearest.sin : 1);
-                    const int last = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
-                    walk.near.push_back(
-                        {index, node.brightness > kBright ? std::min(order + 1, last) : order});
+                    walk.near.push_back({index, order_index(node, apart, spread)});
                 }
                 continue;
             }
@@ -167,6 +164,31 @@ class Walker {
     }
 
   private:
+    /// The order of points of a leaf.
+    int order_index(const MomentCone& node, Angle apart, Angle spread) const {
+        const Angle reach = angle_of(node.reach), nearest = difference(difference(apart, spread), reach);
+        // Its sine is not above the angle: rather too many points than too few.
+        const int order =
+            ld_order_index(tree_.blocks().texel_angle(), alpha_, nearest.cos > 0 ? nearest.sin : 1);
+        if (node.brightness <= kBright) return order;
+        // The errors of many texels cancel, but a sun's stands alone and gets a step more, or what a horizon
+        // through it takes.
+        constexpr int kLast = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
+        if (sum(sum(apart, spread), reach).cos > 0) return std::min(order + 1, kLast);
+        return std::max(order, order_at_horizon(node.brightness));
+    }
+
+    /// n x n points take a texel that a horizon cuts to about .1 / n^2 of its light: what makes that
+    /// kCutError of the picture's.
+    int order_at_horizon(double brightness) const {
+        const double angle = tree_.blocks().texel_angle();
+        const double wanted = std::min(angle * std::sqrt(0.1 * brightness / (std::numbers::pi * kCutError)),
+                                       kPointsAtHorizon / tree_.blocks().grid().side);
+        int index = 0;
+        while (PatchBlocks::kOrders[index] < wanted) ++index;
+        return index;
+    }
+
     void push_children(const Place& place) {
         const MomentTree::Level& below = tree_.level(place.level - 1);
         for (int k = 3; k >= 0; --k) {

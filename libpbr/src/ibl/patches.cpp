@@ -22,6 +22,14 @@ double texel_angle_of(const EquirectView& source) {
     return std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height);
 }
 
+/// Where a single point of a row of texels belongs, in rows: the middle of their area, two thirds of a row
+/// from a pole. To second order in the row's height h it is h^2/12 cot(colatitude) beside the middle of the
+/// row.
+double middle_of_area(int row, int height) {
+    const SinCos middle = sin_cos_pi((row + 0.5) / height);
+    return row + 0.5 + std::numbers::pi / height / 12 * middle.cos / middle.sin;
+}
+
 std::vector<QuadratureRule> rules_of_orders() {
     std::vector<QuadratureRule> rules;
     for (const int order : PatchBlocks::kOrders) rules.push_back(gauss_legendre(order));
@@ -130,7 +138,8 @@ PatchBlocks::AxisPoints PatchBlocks::colatitudes(int first, int count, const Qua
     for (int y = first; y < first + count; ++y) {
         double sum = 0;
         for (std::size_t b = 0; b < order; ++b) {
-            const SinCos colatitude = sin_cos_pi((y + rule.nodes[b]) / equirect_.height);
+            const double row = order == 1 ? middle_of_area(y, equirect_.height) : y + rule.nodes[b];
+            const SinCos colatitude = sin_cos_pi(row / equirect_.height);
             points.sines.push_back(colatitude.sin);
             points.cosines.push_back(colatitude.cos);
             points.weights.push_back(rule.weights[b] * colatitude.sin);
