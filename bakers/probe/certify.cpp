@@ -31,7 +31,7 @@ namespace {
 constexpr int kTile = 4, kSmallestTiled = 64;
 
 /// Texels of a level that are checked: sampling errs by noise, and takes longer.
-constexpr int kChecked = 12, kCheckedOfSamples = 48;
+constexpr int kChecked = 8, kCheckedOfSamples = 48;
 
 /// What distant parts may move the exact sum by at most, of the error that was asked for. What they do is a
 /// hundredth of that.
