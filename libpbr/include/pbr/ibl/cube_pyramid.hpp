@@ -6,8 +6,9 @@
 // middle, 9 : 3 : 3 : 1, across edges too. That leaves a light's centroid where it is; the mean of four would
 // move it to the middle of the four. A texel then holds its flux over the solid angle H under its bilinear
 // weight, the integral over all places of lookup. What each texel has in its fourth channel is the same of a
-// white environment, W / H, and a lookup is the quotient: white stays white, and the integral of any level's
-// lookups is the picture's flux.
+// white environment, W / H, and a lookup is the quotient, so that white stays white. The integral of any
+// level's lookups before the quotient is the picture's flux; after it, a lamp of one texel keeps its own
+// within 4 %, which it loses at corners of the cube on levels of eight texels and fewer.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
