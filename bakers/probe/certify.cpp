@@ -12,6 +12,7 @@
 #include "bakers/probe/chain.hpp"
 #include "bakers/probe/environment.hpp"
 #include "bakers/probe/levels.hpp"
+#include "bakers/probe/low_bands.hpp"
 #include "bakers/probe/method.hpp"
 #include "bakers/probe/probe.hpp"
 #include "bakers/probe/source_layout.hpp"
@@ -19,28 +20,29 @@
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/ld.hpp"
 #include "pbr/ibl/moment_tree.hpp"
-#include "pbr/ibl/spherical_harmonics.hpp"
-#include "pbr/ibl/zonal_harmonics.hpp"
-#include "pbr/ibl/zonal_kernel.hpp"
-#include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/sequence.hpp"
 #include "pbr/numerics/sum.hpp"
 
 namespace pbrbake::probe {
 namespace {
 
-/// A tile of 4 x 4 texels is checked together, since they share the exact sum's work; but where such a tile
-/// is wide, its texels are better alone.
-constexpr int kTile = 4, kSmallestTiled = 128, kSmallestTiledOfAll = 64;
+/// Where all texels are checked, tiles of 4 x 4 share the exact sum's work; but where such a tile is wide,
+/// its texels are better alone, as those are that are drawn.
+constexpr int kTile = 4, kSmallestTiled = 64;
 
-/// What distant parts may move the exact sum by, of the error that was asked for.
-constexpr double kFarFieldShare = 0.1;
+/// Texels of a level that are checked: sampling errs by noise, and takes longer.
+constexpr int kChecked = 8, kCheckedOfSamples = 48;
+
+/// What distant parts may move the exact sum by at most, of the error that was asked for. What they do is a
+/// hundredth of that.
+constexpr double kFarFieldShare = 1.0 / 3;
+
+/// Intervals are widened by this share of the error asked for: what is left of a solved level beside a sun
+/// sits on single texels that a draw misses, and is smaller.
+constexpr double kSlack = 0.1;
 
 /// What the exact sum may be off by its points: nothing smaller is told.
 constexpr double kErrorOfPoints = 3e-5;
-
-/// Bands that are checked whole: l = 0 to 3.
-constexpr int kLowBands = pbr::kMomentBands;
 
 struct Tile {
     int face, left, top, width, height;
@@ -48,32 +50,13 @@ struct Tile {
 };
 
 /// Tiles side by side that cover all faces, those at the ends cut short.
-std::vector<Tile> all_tiles(int size, int smallest_tiled) {
-    const int side = size < smallest_tiled ? 1 : kTile;
+std::vector<Tile> all_tiles(int size, int side) {
     std::vector<Tile> tiles;
     for (int face = 0; face < 6; ++face)
         for (int top = 0; top < size; top += side)
             for (int left = 0; left < size; left += side)
                 tiles.push_back({face, left, top, std::min(side, size - left), std::min(side, size - top)});
     return tiles;
-}
-
-/// Evaluations of the exact sum that a level can afford, so that beyond the fewest parts checking costs about
-/// half the bake. An evaluation takes about 20 ns; the tree that they stand on about 20 ns a texel of the
-/// source. Of what is paid for in these the harmonic solver gives 10 ns a texel of the source, shared by the
-/// levels, and 40 ns a texel of the level; a filtered sample takes 10.
-double affordable_evaluations(const ProbeParams& params, const Method& method, const Accuracy& accuracy,
-                              const Environment& environment, int level) {
-    const double size = size_of_level(params, level), texels = 6 * size * size;
-    const double source_texels = environment.texels() / (level_count(params) - 1.0);
-    switch (method.integrator) {
-        case Integrator::reference:
-            return 1e9;
-        case Integrator::harmonic:
-            return (source_texels * 10 + texels * 40) / 20;
-        default:
-            return (texels * samples_of_level(params, accuracy, level) * 10 - source_texels * 40) / 20;
-    }
 }
 
 struct TileError {
@@ -90,6 +73,7 @@ struct LevelCheck {
     int level;
     double alpha;
     double tolerance;  ///< of the exact sum's far field, over the mean
+    double slack;      ///< of intervals
 };
 
 TileError error_of_tile(const LevelCheck& check, const Tile& tile) {
@@ -115,35 +99,30 @@ TileError error_of_tile(const LevelCheck& check, const Tile& tile) {
     return error;
 }
 
+/// Sum of a row's values; the channels' sums don't wait for each other.
+double sum_of_row(const float* rgb, int count) {
+    std::array<double, 3> sums{};
+    for (int x = 0; x < count; ++x)
+        for (std::size_t c = 0; c < 3; ++c) sums[c] += static_cast<double>(*rgb++);
+    return sums[0] + sums[1] + sums[2];
+}
+
 /// Mean of a level's stored values over texels and channels; 1 for a black level, whose errors are then
 /// absolute.
 double mean_of_level(const Product& product, int level) {
-    const std::vector<float>& texels = product.images[0].levels[static_cast<std::size_t>(level)].texels;
+    const Level& own = product.images[0].levels[static_cast<std::size_t>(level)];
     pbr::CompensatedSum sum;
-    for (const float value : texels) sum += static_cast<double>(value);
-    const double mean = sum.value() / static_cast<double>(texels.size()) / product.scale;
+    for (int row = 0; row < 6 * own.height; ++row)
+        sum += sum_of_row(product.images[0].texel(level, row / own.height, row % own.height, 0), own.width);
+    const double mean = sum.value() / static_cast<double>(own.texels.size()) / product.scale;
     return mean > 0 ? mean : 1;
-}
-
-/// Solid angles of a face's texels, sr, by rows: those of an eighth of it, and its mirror images.
-std::vector<double> solid_angles_of_face(int n) {
-    std::vector<double> solid_angles(static_cast<std::size_t>(n) * n);
-    for (int y = 0; y < (n + 1) / 2; ++y)
-        for (int x = y; x < (n + 1) / 2; ++x) {
-            const double solid_angle = pbr::cubemap_texel_solid_angle(n, x, y);
-            for (const auto& [column, row] : {std::pair{x, y}, std::pair{y, x}})
-                for (const int j : {row, n - 1 - row})
-                    for (const int i : {column, n - 1 - column})
-                        solid_angles[static_cast<std::size_t>(j) * n + i] = solid_angle;
-        }
-    return solid_angles;
 }
 
 /// Radiance times solid angle over all texels and channels.
 double energy_of_level(const Product& product, int level) {
     const Image& image = product.images[0];
     const int n = image.levels[static_cast<std::size_t>(level)].width;
-    const std::vector<double> solid_angles = solid_angles_of_face(n);
+    const std::vector<double> solid_angles = pbr::cubemap_solid_angles(n);
     pbr::CompensatedSum flux;
     for (int face = 0; face < 6; ++face)
         for (int y = 0; y < n; ++y) {
@@ -161,23 +140,23 @@ double energy_of_level(const Product& product, int level) {
 /// Sums of squared stored values, by which tiles are chosen.
 std::vector<double> brightness_of_tiles(const Image& image, int level, std::span<const Tile> tiles) {
     std::vector<double> brightness;
+    brightness.reserve(tiles.size());
     for (const Tile& tile : tiles) {
-        double sum = 0;
+        std::array<double, 3> sums{};  // they don't wait for each other
         for (int y = tile.top; y < tile.top + tile.height; ++y) {
             const float* values = image.texel(level, tile.face, y, tile.left);
-            for (int i = 0; i < 3 * tile.width; ++i)
-                sum += static_cast<double>(values[i]) * static_cast<double>(values[i]);
+            for (int x = 0; x < tile.width; ++x)
+                for (std::size_t c = 0; c < 3; ++c, ++values)
+                    sums[c] += static_cast<double>(*values) * static_cast<double>(*values);
         }
-        brightness.push_back(sum);
+        brightness.push_back(sums[0] + sums[1] + sums[2]);
     }
     return brightness;
 }
 
-/// Root mean square over `values` numbers, over a mean, from a total of squares.
-/// The interval is widened by what the truth itself may be off, and by what its far field is allowed, a tenth
-/// of the error asked for: what is left of a solved level beside a sun sits on single texels that a draw
-/// misses, and is smaller.
-Figure relative_rmse(const TotalEstimate& squared, double values, double mean, double of_truth, bool all,
+/// Root mean square over `values` numbers, over a mean, from a total of squares. The interval is widened by
+/// `slack`.
+Figure relative_rmse(const TotalEstimate& squared, double values, double mean, double slack, bool all,
                      std::string method, int level) {
     const auto root = [&](double total) { return std::sqrt(total / values) / mean; };
     Figure figure{"relative_rmse",
@@ -187,8 +166,8 @@ Figure relative_rmse(const TotalEstimate& squared, double values, double mean, d
                   {},
                   level};
     if (!all)
-        figure.interval = {std::max(0.0, root(squared.interval.first) - of_truth),
-                           root(squared.interval.second) + of_truth};
+        figure.interval = {std::max(0.0, root(squared.interval.first) - slack),
+                           root(squared.interval.second) + slack};
     return figure;
 }
 
@@ -196,7 +175,7 @@ Figure relative_rmse(const TotalEstimate& squared, double values, double mean, d
 /// storage changed.
 Figure mirror_figure(const ProbeParams& params, const Environment& environment, const Product& product,
                      Context& context) {
-    constexpr int kRows = 12;
+    constexpr int kRows = 8;
     const int size = params.size, rows = 6 * size;
     std::vector<double> brightness;
     for (int row = 0; row < rows; ++row) {
@@ -241,23 +220,14 @@ Figure largest_error(std::span<const TileError> errors, double mean, bool all, c
             level};
 }
 
-/// A filtered level against the exact sum, on all tiles or as many as `affordable` evaluations pay for.
-std::vector<Figure> level_figures(const LevelCheck& check, double affordable, const ProbeParams& params,
+/// A filtered level against the exact sum, on all texels or on `count` of them.
+std::vector<Figure> level_figures(const LevelCheck& check, int count, const ProbeParams& params,
                                   Context& context) {
-    constexpr double kFewest = 12, kMost = 64;
     const int size = size_of_level(params, check.level);
-    const std::vector<Tile> tiles =
-        all_tiles(size, context.certify_fully() ? kSmallestTiledOfAll : kSmallestTiled);
+    const bool tiled = context.certify_fully() && size >= kSmallestTiled;
+    const std::vector<Tile> tiles = all_tiles(size, tiled ? kTile : 1);
+    if (context.certify_fully()) count = static_cast<int>(tiles.size());
     const std::vector<double> brightness = brightness_of_tiles(check.product.images[0], check.level, tiles);
-    int count = static_cast<int>(tiles.size());
-    if (!context.certify_fully()) {
-        // What a tile costs shows in the first: it depends on the picture's size and the lobe, not on the
-        // machine.
-        const TileError first = error_of_tile(check, tiles[0]);
-        context.count("certify.ld", first.evaluations);
-        count =
-            static_cast<int>(std::clamp(affordable / static_cast<double>(first.evaluations), kFewest, kMost));
-    }
     const TileSample sample =
         choose_tiles(brightness, count, pbr::random_bits(params.seed, 0x6365u, check.level));
     std::vector<std::size_t> chosen = sample.certain;
@@ -283,69 +253,37 @@ std::vector<Figure> level_figures(const LevelCheck& check, double affordable, co
     const std::string method =
         all ? "all stored texels against the exact sum"
             : "stored texels against the exact sum, the " + std::to_string(sample.certain.size()) +
-                  " brightest parts of the level and " + std::to_string(sample.drawn.size()) +
-                  " chosen by hash, of " + std::to_string(tiles[0].texels()) + " texels each";
+                  " brightest of the level and " + std::to_string(sample.drawn.size()) + " chosen by hash";
     const TotalEstimate total = estimate_total(sample, std::span(squared).first(sample.certain.size()),
                                                std::span(squared).subspan(sample.certain.size()));
-    return {relative_rmse(total, 18.0 * size * size, mean,
-                          std::max(of_truth.deviation, kErrorOfPoints) + check.tolerance, all, method,
-                          check.level),
-            largest_error(errors, mean, all, method, check.level),
-            {"error_of_the_exact_sum",
-             of_truth.deviation,
-             Evidence::measured,
-             "largest |1 - integral of the kernel| by the quadrature of the exact sums",
-             {},
-             check.level},
-            {"far_field_error",
-             of_truth.far_field,
-             Evidence::bound,
-             "what taking distant parts of the source by their moments moved an exact sum by at most, over "
-             "the mean",
-             {},
-             check.level}};
+    return {
+        relative_rmse(total, 18.0 * size * size, mean,
+                      std::max(of_truth.deviation, kErrorOfPoints) + check.slack, all, method, check.level),
+        largest_error(errors, mean, all, method, check.level),
+        {"error_of_the_exact_sum",
+         of_truth.deviation,
+         Evidence::measured,
+         "largest |1 - integral of the kernel| by the quadrature of the exact sums",
+         {},
+         check.level},
+        {"far_field_error",
+         of_truth.far_field,
+         Evidence::bound,
+         "what taking distant parts of the source by their moments moved an exact sum by at most, over "
+         "the mean",
+         {},
+         check.level}};
 }
 
-/// The lowest bands of a level against the source's, which the kernel must have multiplied by k_l: a check of
-/// all texels that needs no exact sum. What the source's bands foretell is taken off each texel, so that the
-/// sums over texels have to integrate only the rest.
-Figure low_band_figure(const Product& product, const std::vector<glm::dvec3>& source_bands, double mean,
-                       double alpha, int level) {
-    const std::vector<double> kernel = pbr::zonal_ggx(pbr::GgxZonalKernel(alpha), kLowBands);
-    std::vector<glm::dvec3> expected = source_bands;
-    pbr::sh_scale_bands<double, glm::dvec3>(kernel, expected);
-    constexpr std::size_t kCount = kLowBands * kLowBands;
-    std::array<std::array<double, kCount>, 3> foretold{}, rest{};
-    for (std::size_t i = 0; i < kCount; ++i)
-        for (int c = 0; c < 3; ++c) foretold[static_cast<std::size_t>(c)][i] = expected[i][c];
-    const Image& image = product.images[0];
-    const int size = image.levels[static_cast<std::size_t>(level)].width;
-    std::array<double, kCount> basis{};
-    const std::vector<double> solid_angles = solid_angles_of_face(size);
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            const double solid_angle = solid_angles[static_cast<std::size_t>(y) * size + x];
-            for (int face = 0; face < 6; ++face) {
-                pbr::sh_evaluate<double>(kLowBands, pbr::cubemap_texel_direction({face, x, y}, size), basis);
-                const float* texel = image.texel(level, face, y, x);
-                for (std::size_t c = 0; c < 3; ++c) {
-                    std::array<double, 4> known{};  // sums side by side
-                    for (std::size_t i = 0; i < kCount; ++i) known[i % 4] += basis[i] * foretold[c][i];
-                    const double value = static_cast<double>(texel[c]) / product.scale -
-                                         ((known[0] + known[1]) + (known[2] + known[3]));
-                    for (std::size_t i = 0; i < kCount; ++i) rest[c][i] += solid_angle * value * basis[i];
-                }
-            }
-        }
-    double largest = 0;
-    for (const std::array<double, kCount>& channel : rest)
-        for (const double coefficient : channel) largest = std::max(largest, std::abs(coefficient));
+/// A check of all texels that needs no exact sum.
+Figure low_band_figure(const Product& product, const pbr::SphereMoments& source, double mean, double alpha,
+                       int level) {
     return {"low_band_error",
-            largest / (mean * std::sqrt(4 * std::numbers::pi)),
+            low_band_difference(product.images[0], level, product.scale, source, alpha) /
+                (mean * std::sqrt(4 * std::numbers::pi)),
             Evidence::measured,
             "largest difference of LD_lm from k_l E_lm, l to 3, over the mean's own coefficient; sums over "
-            "texels "
-            "leave up to 1 / size^2 of what is in higher bands",
+            "texels leave up to 1 / size^2 of what is in higher bands",
             {},
             level};
 }
@@ -358,7 +296,7 @@ Certificate certify(const ProbeParams& params, const Inputs& inputs, const Produ
     const Environment environment(params, environment_source(params, inputs, unfolded));
     const pbr::PatchBlocks blocks = environment.blocks();
     const pbr::MomentTree tree(blocks, each_on(context, 0));
-    const std::vector<glm::dvec3> source_bands = pbr::sh_project(tree, kLowBands);
+    const pbr::SphereMoments source_moments = pbr::sphere_moments(tree);
     const double source_energy = 4 * std::numbers::pi * (tree.mean().x + tree.mean().y + tree.mean().z);
     const double source_mean = source_energy > 0 ? source_energy / (12 * std::numbers::pi) : 1;
     const Method method = method_of(params, context.accuracy());
@@ -370,9 +308,10 @@ Certificate certify(const ProbeParams& params, const Inputs& inputs, const Produ
         } else {
             const double alpha = alpha_of_level(params, l);
             figures = level_figures(
-                {product, tree, l, alpha, std::min(1.0, kFarFieldShare * method.max_error)},
-                affordable_evaluations(params, method, context.accuracy(), environment, l), params, context);
-            figures.push_back(low_band_figure(product, source_bands, source_mean, alpha, l));
+                {product, tree, l, alpha, std::min(1.0, kFarFieldShare * method.max_error),
+                 kSlack * method.max_error},
+                method.integrator == Integrator::harmonic ? kChecked : kCheckedOfSamples, params, context);
+            figures.push_back(low_band_figure(product, source_moments, source_mean, alpha, l));
         }
 
         if (!certificate.headline || figures[0].value > certificate.headline->value)

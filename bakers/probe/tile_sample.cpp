@@ -35,10 +35,13 @@ TileSample choose_tiles(std::span<const double> brightness, int count, std::uint
     std::vector<double> weight(parts);
     for (std::size_t i = 0; i < parts; ++i)
         weight[i] = (total > 0 ? brightness[i] / total : 0) + 1.0 / static_cast<double>(parts);
+    // At most half of the parts can be certain: the heaviest, in order.
     std::vector<std::size_t> order(parts);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
+    std::partial_sort(order.begin(), order.begin() + count / 2, order.end(),
+                      [&](std::size_t a, std::size_t b) {
+                          return weight[a] > weight[b] || (weight[a] == weight[b] && a < b);
+                      });
     double left = std::accumulate(weight.begin(), weight.end(), 0.0);
     std::size_t certain = 0;
     while (certain < static_cast<std::size_t>(count) / 2 &&

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pbr/numerics/elementary.hpp"
 
@@ -36,6 +37,20 @@ double cube_rectangle_solid_angle(double s0, double s1, double t0, double t1) {
 double cubemap_texel_solid_angle(int size, int x, int y) {
     return cube_rectangle_solid_angle(2.0 * x / size - 1, 2.0 * (x + 1) / size - 1, 2.0 * y / size - 1,
                                       2.0 * (y + 1) / size - 1);
+}
+
+std::vector<double> cubemap_solid_angles(int size) {
+    // Those of an eighth of the face, and its mirror images.
+    const std::size_t n = static_cast<std::size_t>(size);
+    std::vector<double> solid_angles(n * n);
+    for (int y = 0; 2 * y < size; ++y)
+        for (int x = y; 2 * x < size; ++x) {
+            const double solid_angle = cubemap_texel_solid_angle(size, x, y);
+            for (const auto& [column, row] : {std::pair{x, y}, std::pair{y, x}})
+                for (const int j : {row, size - 1 - row})
+                    for (const int i : {column, size - 1 - column}) solid_angles[j * n + i] = solid_angle;
+        }
+    return solid_angles;
 }
 
 CubeTexel cubemap_neighbour(int face, int x, int y, int size) {

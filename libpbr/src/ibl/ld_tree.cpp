@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <numbers>
-#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "pbr/ibl/ld.hpp"
@@ -25,6 +25,10 @@ namespace {
 constexpr double kWidestGroup = 0.1;
 
 constexpr float kBright = 4;  // times the mean
+
+/// What a lamp that the horizon cuts may be off by, over the picture's mean; but no more than 128 points
+/// along a leaf's side, 32 to 8 a texel.
+constexpr double kCutError = 1e-4, kPointsAtHorizon = 128;
 
 constexpr std::size_t kBatch = 512;  // points that are summed at once: they stay in the nearest cache
 
@@ -146,14 +150,7 @@ class Walker {
                 if (place.level > 0) {
                     push_children(place);
                 } else {
-                    const Angle nearest = difference(difference(apart, spread), angle_of(node.reach));
-                    // Its sine is not above the angle: rather too many points than too few. The errors of
-                    // many texels cancel, but a sun's stands alone and gets a step more.
-                    const int order = ld_order_index(tree_.blocks().texel_angle(), alpha_,
-                                                     nearest.cos > 0 ? nearest.sin : 1);
-                    const int last = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
-                    walk.near.push_back(
-                        {index, node.brightness > kBright ? std::min(order + 1, last) : order});
+                    walk.near.push_back({index, order_index(node, apart, spread)});
                 }
                 continue;
             }
@@ -167,6 +164,31 @@ class Walker {
     }
 
   private:
+    /// The order of points of a leaf.
+    int order_index(const MomentCone& node, Angle apart, Angle spread) const {
+        const Angle reach = angle_of(node.reach), nearest = difference(difference(apart, spread), reach);
+        // Its sine is not above the angle: rather too many points than too few.
+        const int order =
+            ld_order_index(tree_.blocks().texel_angle(), alpha_, nearest.cos > 0 ? nearest.sin : 1);
+        if (node.brightness <= kBright) return order;
+        // The errors of many texels cancel, but a sun's stands alone and gets a step more, or what a horizon
+        // through it takes.
+        constexpr int kLast = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
+        if (sum(sum(apart, spread), reach).cos > 0) return std::min(order + 1, kLast);
+        return std::max(order, order_at_horizon(node.brightness));
+    }
+
+    /// n x n points take a texel that a horizon cuts to about .1 / n^2 of its light: what makes that
+    /// kCutError of the picture's.
+    int order_at_horizon(double brightness) const {
+        const double angle = tree_.blocks().texel_angle();
+        const double wanted = std::min(angle * std::sqrt(0.1 * brightness / (std::numbers::pi * kCutError)),
+                                       kPointsAtHorizon / tree_.blocks().grid().side);
+        int index = 0;
+        while (PatchBlocks::kOrders[index] < wanted) ++index;
+        return index;
+    }
+
     void push_children(const Place& place) {
         const MomentTree::Level& below = tree_.level(place.level - 1);
         for (int k = 3; k >= 0; --k) {
@@ -202,10 +224,7 @@ class TreeSum {
         walker_(cone, walk);
         ld_add_nodes(walk.far, alpha_, kernel_.normalisation(), sums);
         evaluations_ += walk.far.size();
-        for (const Visit& visit : walk.near) {
-            tree_.blocks().append_points(visit.block, visit.order_index, points_);
-            if (points_.size() >= kBatch) add_points(sums);
-        }
+        for (const Visit& visit : walk.near) add_near(visit, sums);
         add_points(sums);
         return walk.remainder;
     }
@@ -214,6 +233,21 @@ class TreeSum {
     std::uint64_t evaluations() const { return evaluations_; }
 
   private:
+    template <class Sums>
+    void add_near(const Visit& visit, Sums& sums) {
+        if constexpr (std::is_same_v<Sums, LdSingle>) {
+            LatLongPatch patch;
+            if (tree_.blocks().tabulated_patch(visit.block, visit.order_index, patch)) {
+                ld_add_points(patch, alpha_, kernel_.normalisation(), sums);
+                evaluations_ +=
+                    static_cast<std::uint64_t>(patch.width) * patch.height * patch.order * patch.order;
+                return;
+            }
+        }
+        tree_.blocks().append_points(visit.block, visit.order_index, points_);
+        if (points_.size() >= kBatch) add_points(sums);
+    }
+
     template <class Sums>
     void add_points(Sums& sums) {
         ld_add_points(points_, alpha_, kernel_.normalisation(), sums);
@@ -263,7 +297,7 @@ LdTreeError ld_exact(const MomentTree& source, double alpha, double tolerance,
             continue;
         }
         for (std::size_t lane = 0; lane < members.size(); ++lane) {
-            LdSingle single{{group.x[lane], group.y[lane], group.z[lane]}, {}};
+            LdSingle single{members[lane], {}};
             const std::array<double, 4> remainder = tree_sum.add({members[lane], 0}, single);
             finish(first + lane, std::to_array(single.sum), remainder);
         }

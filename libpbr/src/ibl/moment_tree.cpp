@@ -224,13 +224,19 @@ MomentCone MomentTree::cone(const glm::dvec3& centre, double solid_angle, int le
             1};
 }
 
-std::vector<glm::dvec3> sh_project(const MomentTree& source, int bands) {
-    assert(bands >= 1 && bands <= kMomentBands);
+SphereMoments sphere_moments(const MomentTree& source) {
     const MomentTree::Level& roots = source.level(source.levels() - 1);
     PatchMoments moments{};  // about the sphere's centre
     for (std::size_t i = 0; i < roots.cones.size(); ++i)
         add_shifted(whole_moments(roots.moments[i]), roots.cones[i].centre(),
                     static_cast<double>(roots.cones[i].solid_angle), moments);
+    SphereMoments rgb{};
+    for (std::size_t k = 0; k < kCount; ++k) rgb[k] = {moments[k][0], moments[k][1], moments[k][2]};
+    return rgb;
+}
+
+std::vector<glm::dvec3> sh_project(const SphereMoments& moments, int bands) {
+    assert(bands >= 1 && bands <= kMomentBands);
     // The picture's bands at n are its sum with (2 l + 1) P_l(n.d) / (4 pi), a polynomial of n.d; the rule's
     // points are exact for it times Y, of degree 6 together.
     constexpr int kRows = 4, kColumns = 8;
@@ -247,8 +253,7 @@ std::vector<glm::dvec3> sh_project(const MomentTree& source, int bands) {
             for (std::size_t k = 0; k < kCount; ++k) {
                 const int degree = kMonomials[k].a + kMonomials[k].b + kMonomials[k].c;
                 sums[static_cast<std::size_t>(degree)] +=
-                    factorial(degree) / kFactorials[k] * powers[k] *
-                    glm::dvec3(moments[k][0], moments[k][1], moments[k][2]);
+                    factorial(degree) / kFactorials[k] * powers[k] * moments[k];
             }
             const std::array<glm::dvec3, kMomentBands> of_band{sums[0], 3.0 * sums[1],
                                                                2.5 * (3.0 * sums[2] - sums[0]),

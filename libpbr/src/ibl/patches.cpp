@@ -16,10 +16,18 @@ namespace {
 
 /// Texels a side of a block: small ones let far fields come near, but a tree over too many costs more than it
 /// spares.
-int block_side(double texels) { return texels <= 0x1p18 ? 4 : texels <= 0x1p20 ? 8 : 16; }
+int block_side(double texels) { return texels <= 0x1p14 ? 4 : texels <= 0x1p20 ? 8 : kMostLatLongWidth; }
 
 double texel_angle_of(const EquirectView& source) {
     return std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height);
+}
+
+/// Where a single point of a row of texels belongs, in rows: the middle of their area, two thirds of a row
+/// from a pole. To second order in the row's height h it is h^2/12 cot(colatitude) beside the middle of the
+/// row.
+double middle_of_area(int row, int height) {
+    const SinCos middle = sin_cos_pi((row + 0.5) / height);
+    return row + 0.5 + std::numbers::pi / height / 12 * middle.cos / middle.sin;
 }
 
 std::vector<QuadratureRule> rules_of_orders() {
@@ -130,7 +138,8 @@ PatchBlocks::AxisPoints PatchBlocks::colatitudes(int first, int count, const Qua
     for (int y = first; y < first + count; ++y) {
         double sum = 0;
         for (std::size_t b = 0; b < order; ++b) {
-            const SinCos colatitude = sin_cos_pi((y + rule.nodes[b]) / equirect_.height);
+            const double row = order == 1 ? middle_of_area(y, equirect_.height) : y + rule.nodes[b];
+            const SinCos colatitude = sin_cos_pi(row / equirect_.height);
             points.sines.push_back(colatitude.sin);
             points.cosines.push_back(colatitude.cos);
             points.weights.push_back(rule.weights[b] * colatitude.sin);
@@ -155,6 +164,9 @@ void PatchBlocks::tabulate_axes() {
     tabulate_halves();
     for (std::size_t k = 0; k < longitudes_.size(); ++k) {
         longitudes_[k] = longitudes(0, equirect_.width, rules_[k]);
+        for (std::vector<double>* table :
+             {&longitudes_[k].sines, &longitudes_[k].cosines, &longitudes_[k].weights})
+            table->resize(table->size() + kLatLongPadding);
         colatitudes_[k] = colatitudes(0, equirect_.height, rules_[k]);
     }
 }
@@ -185,33 +197,46 @@ void PatchBlocks::append(const Block& block, int order_index, PatchPoints& point
     }
 }
 
+bool PatchBlocks::is_tabulated(int order_index) const {
+    return !cube_.rgb && grid_.faces > 0 && order_index < static_cast<int>(longitudes_.size());
+}
+
+LatLongPatch PatchBlocks::lat_long_patch(const Block& block, int order_index, const AxisPoints& columns,
+                                         const AxisPoints& rows) const {
+    const bool tabulated = is_tabulated(order_index);
+    const std::size_t order = static_cast<std::size_t>(kOrders[order_index]),
+                      column = tabulated ? block.x * order : 0, row = tabulated ? block.y * order : 0;
+    const glm::dmat3 to_world = glm::transpose(equirect_.world_to_source);  // it is orthogonal
+    return {{&columns.sines[column], &columns.cosines[column], &columns.weights[column]},
+            {&rows.sines[row], &rows.cosines[row], &rows.weights[row]},
+            to_world[0],
+            to_world[1],
+            to_world[2],
+            equirect_.texel(block.x, block.y),
+            static_cast<std::size_t>(equirect_.width) * 3,
+            block.width,
+            block.height,
+            static_cast<int>(order)};
+}
+
+bool PatchBlocks::tabulated_patch(int index, int order_index, LatLongPatch& patch) const {
+    if (!is_tabulated(order_index)) return false;
+    patch = lat_long_patch(blocks_[index], order_index, longitudes_[order_index], colatitudes_[order_index]);
+    return true;
+}
+
 void PatchBlocks::equirect_points(const Block& block, int order_index, std::size_t at,
                                   PatchPoints& points) const {
     // The points are a product of longitudes and colatitudes: sines and cosines are taken along the axes
     // alone, and for the orders that most points have but once.
+    if (is_tabulated(order_index))
+        return fill_lat_long_points(
+            lat_long_patch(block, order_index, longitudes_[order_index], colatitudes_[order_index]), at,
+            points);
     const QuadratureRule& rule = rules_[order_index];
-    const std::size_t order = static_cast<std::size_t>(rule.size());
-    const bool tabulated = order_index < static_cast<int>(longitudes_.size()) && grid_.faces > 0;
-    AxisPoints own_columns, own_rows;
-    if (!tabulated) {
-        own_columns = longitudes(block.x, block.width, rule);
-        own_rows = colatitudes(block.y, block.height, rule);
-    }
-    const AxisPoints& columns = tabulated ? longitudes_[order_index] : own_columns;
-    const AxisPoints& rows = tabulated ? colatitudes_[order_index] : own_rows;
-    const std::size_t column = tabulated ? block.x * order : 0, row = tabulated ? block.y * order : 0;
-    const glm::dmat3 to_world = glm::transpose(equirect_.world_to_source);  // it is orthogonal
-    fill_lat_long_points({{&columns.sines[column], &columns.cosines[column], &columns.weights[column]},
-                          {&rows.sines[row], &rows.cosines[row], &rows.weights[row]},
-                          to_world[0],
-                          to_world[1],
-                          to_world[2],
-                          equirect_.texel(block.x, block.y),
-                          static_cast<std::size_t>(equirect_.width) * 3,
-                          block.width,
-                          block.height,
-                          static_cast<int>(order)},
-                         at, points);
+    const AxisPoints columns = longitudes(block.x, block.width, rule),
+                     rows = colatitudes(block.y, block.height, rule);
+    fill_lat_long_points(lat_long_patch(block, order_index, columns, rows), at, points);
 }
 
 void PatchBlocks::cube_points(const Block& block, const QuadratureRule& rule, std::size_t at,

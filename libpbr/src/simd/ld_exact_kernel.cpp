@@ -1,4 +1,5 @@
-// The exact LD sum. Lanes hold output directions, points are broadcast: any vector width gives the same bits.
+// The exact LD sum of groups of directions. Lanes hold directions, points are broadcast: any vector width
+// gives the same bits.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/simd/ld_exact_kernel.cpp"
@@ -62,73 +63,95 @@ void add_block(const PatchPoints& points, float alpha2, float normalisation, LdG
     }
 }
 
-/// Adds, for all nodes, the sum over j of k^(j)(n.c)/j! times the integral of radiance times (n.(d - c))^j.
+/// The monomials of the group's directions, in the order of kMonomials.
+template <class V>
+HWY_INLINE void monomials_of(V one, V nx, V ny, V nz, V* n) {
+    const V xx = hn::Mul(nx, nx), yy = hn::Mul(ny, ny), zz = hn::Mul(nz, nz), xy = hn::Mul(nx, ny);
+    const V all[kMonomials.size()] = {one,
+                                      nx,
+                                      ny,
+                                      nz,
+                                      xx,
+                                      yy,
+                                      zz,
+                                      xy,
+                                      hn::Mul(nx, nz),
+                                      hn::Mul(ny, nz),
+                                      hn::Mul(xx, nx),
+                                      hn::Mul(yy, ny),
+                                      hn::Mul(zz, nz),
+                                      hn::Mul(xx, ny),
+                                      hn::Mul(xx, nz),
+                                      hn::Mul(yy, nx),
+                                      hn::Mul(yy, nz),
+                                      hn::Mul(zz, nx),
+                                      hn::Mul(zz, ny),
+                                      hn::Mul(xy, nz)};
+    std::copy_n(all, kMonomials.size(), n);
+}
+
+/// Derivatives of k, 0th to 3rd, at x = n.c = 1 - versine, over j! as the moments are over a! b! c!, times
+/// `share`, the node's solid angle and the normalisation.
+template <class V>
+struct Derivatives {
+    V of_order[4];
+};
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Derivatives<V> derivatives(D d, V versine, float alpha2, float share) {
+    // k = N x / f^2 with f = alpha^2 + b (1 - x) and u = b / f; its derivatives are N (1 + 2 x u) / f^2,
+    // N u (4 + 6 x u) / f^2 and N u^2 (18 + 24 x u) / f^2.
+    const V one = hn::Set(d, 1.0f), b = hn::Set(d, (1 - alpha2) / 2);
+    const auto linear = [&](float constant, float factor, V x) HWY_ATTR {
+        return hn::Add(hn::Set(d, constant), hn::Mul(hn::Set(d, factor), x));
+    };
+    const V inverse = hn::Div(one, hn::Add(hn::Set(d, alpha2), hn::Mul(b, versine)));
+    const V k = hn::Mul(hn::Mul(hn::Set(d, share), inverse), inverse);
+    const V x = hn::Sub(one, versine), u = hn::Mul(b, inverse), xu = hn::Mul(x, u);
+    const V ku = hn::Mul(k, u), kuu = hn::Mul(ku, u);
+    return {{hn::Mul(k, x), hn::Mul(k, linear(1, 2, xu)), hn::Mul(ku, linear(4, 6, xu)),
+             hn::Mul(kuu, linear(18, 24, xu))}};
+}
+
+/// A channel of a node: the sum over j of k^(j)(n.c)/j! times the integral of radiance times (n.(d - c))^j.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V expansion(D d, const Derivatives<V>& k, const V* n, const Moments& moments, std::size_t c) {
+    const auto form = [&](std::size_t from, std::size_t to) HWY_ATTR {
+        V sum = hn::Mul(n[from], hn::Set(d, moments.mean[from][c]));
+        for (std::size_t i = from + 1; i < to; ++i)
+            sum = hn::Add(sum, hn::Mul(n[i], hn::Set(d, moments.mean[i][c])));
+        return sum;
+    };
+    const V low =
+        hn::Add(hn::Mul(k.of_order[0], hn::Set(d, moments.mean[0][c])), hn::Mul(k.of_order[1], form(1, 4)));
+    const V high = hn::Add(hn::Mul(k.of_order[2], form(4, 10)), hn::Mul(k.of_order[3], form(10, 20)));
+    return hn::Add(low, high);
+}
+
+/// Adds the expansions of all nodes.
 void add_nodes(std::span<const MomentNode> nodes, float alpha2, float normalisation, LdGroup& group) {
     const hn::CappedTag<float, kLdGroup> d;
     using V = hn::Vec<decltype(d)>;
     const std::size_t lanes = hn::Lanes(d);
-    // k = N x / f^2 with f = alpha^2 + b (1 - x) and u = b / f; its derivatives are N (1 + 2 x u) / f^2,
-    // N u (4 + 6 x u) / f^2 and N u^2 (18 + 24 x u) / f^2.
-    const float b_scalar = (1 - alpha2) / 2;
-    const V a2 = hn::Set(d, alpha2), b = hn::Set(d, b_scalar), one = hn::Set(d, 1.0f),
-            half = hn::Set(d, 0.5f);
-    const auto linear = [&](float constant, float factor, V x) HWY_ATTR {
-        return hn::Add(hn::Set(d, constant), hn::Mul(hn::Set(d, factor), x));
-    };
     for (std::size_t begin = 0; begin < kLdGroup; begin += lanes) {
         const V nx = hn::Load(d, group.x + begin), ny = hn::Load(d, group.y + begin),
                 nz = hn::Load(d, group.z + begin);
-        const V xx = hn::Mul(nx, nx), yy = hn::Mul(ny, ny), zz = hn::Mul(nz, nz), xy = hn::Mul(nx, ny);
-        const V n[kMonomials.size()] = {one,
-                                        nx,
-                                        ny,
-                                        nz,
-                                        xx,
-                                        yy,
-                                        zz,
-                                        xy,
-                                        hn::Mul(nx, nz),
-                                        hn::Mul(ny, nz),
-                                        hn::Mul(xx, nx),
-                                        hn::Mul(yy, ny),
-                                        hn::Mul(zz, nz),
-                                        hn::Mul(xx, ny),
-                                        hn::Mul(xx, nz),
-                                        hn::Mul(yy, nx),
-                                        hn::Mul(yy, nz),
-                                        hn::Mul(zz, nx),
-                                        hn::Mul(zz, ny),
-                                        hn::Mul(xy, nz)};
+        V n[kMonomials.size()];
+        monomials_of(hn::Set(d, 1.0f), nx, ny, nz, n);
         for (std::size_t first = 0; first < nodes.size(); first += kFlush) {
             V sums[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
             for (std::size_t i = first; i < std::min(nodes.size(), first + kFlush); ++i) {
                 const MomentCone& node = *nodes[i].cone;
-                const auto& moments = nodes[i].moments->mean;
                 const float length = node.length;
                 const V dx = hn::Sub(nx, hn::Set(d, node.axis[0] * length)),
                         dy = hn::Sub(ny, hn::Set(d, node.axis[1] * length)),
                         dz = hn::Sub(nz, hn::Set(d, node.axis[2] * length));
                 // 1 - n.c = (|n - c|^2 + 1 - |c|^2) / 2
                 const V chord2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-                const V versine = hn::Mul(half, hn::Add(chord2, hn::Set(d, (1 - length) * (1 + length))));
-                const V inverse = hn::Div(one, hn::Add(a2, hn::Mul(b, versine)));
-                const V share =
-                    hn::Mul(hn::Mul(hn::Set(d, normalisation * node.solid_angle), inverse), inverse);
-                const V x = hn::Sub(one, versine), u = hn::Mul(b, inverse), xu = hn::Mul(x, u);
-                const V share_u = hn::Mul(share, u), share_uu = hn::Mul(share_u, u);
-                const V k0 = hn::Mul(share, x), k1 = hn::Mul(share, linear(1, 2, xu)),
-                        k2 = hn::Mul(share_u, linear(4, 6, xu)), k3 = hn::Mul(share_uu, linear(18, 24, xu));
-                for (std::size_t c = 0; c < 4; ++c) {
-                    const auto form = [&](std::size_t from, std::size_t to) HWY_ATTR {
-                        V sum = hn::Mul(n[from], hn::Set(d, moments[from][c]));
-                        for (std::size_t k = from + 1; k < to; ++k)
-                            sum = hn::Add(sum, hn::Mul(n[k], hn::Set(d, moments[k][c])));
-                        return sum;
-                    };
-                    const V low = hn::Add(hn::Mul(k0, hn::Set(d, moments[0][c])), hn::Mul(k1, form(1, 4)));
-                    const V high = hn::Add(hn::Mul(k2, form(4, 10)), hn::Mul(k3, form(10, 20)));
-                    sums[c] = hn::Add(sums[c], hn::Add(low, high));
-                }
+                const V versine =
+                    hn::Mul(hn::Set(d, 0.5f), hn::Add(chord2, hn::Set(d, (1 - length) * (1 + length))));
+                const Derivatives<V> k = derivatives(d, versine, alpha2, normalisation * node.solid_angle);
+                for (std::size_t c = 0; c < 4; ++c)
+                    sums[c] = hn::Add(sums[c], expansion(d, k, n, *nodes[i].moments, c));
             }
             HWY_ALIGN_MAX float out[kLdGroup];
             for (int c = 0; c < 4; ++c) {
@@ -137,47 +160,6 @@ void add_nodes(std::span<const MomentNode> nodes, float alpha2, float normalisat
                     group.sum[c][begin + lane] += static_cast<double>(out[lane]);
             }
         }
-    }
-}
-
-/// The same as add_block for one direction. Lanes hold points, kLdGroup sums side by side at any vector
-/// width.
-void add_points_to_one(const PatchPoints& points, float alpha2, float normalisation, LdSingle& single) {
-    const hn::CappedTag<float, kLdGroup> d;
-    using V = hn::Vec<decltype(d)>;
-    const std::size_t lanes = hn::Lanes(d);
-    const V a2 = hn::Set(d, alpha2), slope = hn::Set(d, (1 - alpha2) / 4), one = hn::Set(d, 1.0f),
-            half = hn::Set(d, 0.5f), factor = hn::Set(d, normalisation);
-    const V nx = hn::Set(d, single.n[0]), ny = hn::Set(d, single.n[1]), nz = hn::Set(d, single.n[2]);
-    HWY_ALIGN_MAX float all[4][kLdGroup];
-    for (std::size_t begin = 0; begin < kLdGroup; begin += lanes) {
-        V r = hn::Zero(d), g = hn::Zero(d), b = hn::Zero(d), w = hn::Zero(d);
-        for (std::size_t i = begin; i < points.size(); i += kLdGroup) {
-            const std::size_t left = std::min(lanes, points.size() - i);
-            const auto load = [&](const std::vector<float>& array) HWY_ATTR {
-                return left == lanes ? hn::LoadU(d, &array[i])
-                                     : hn::MaskedLoad(hn::FirstN(d, left), d, &array[i]);
-            };
-            const V dx = hn::Sub(nx, load(points.x)), dy = hn::Sub(ny, load(points.y)),
-                    dz = hn::Sub(nz, load(points.z));
-            const V chord2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-            const V mu = hn::Max(hn::Zero(d), hn::Sub(one, hn::Mul(half, chord2)));
-            const V f = hn::Add(a2, hn::Mul(slope, chord2));
-            const V k = hn::Div(hn::Mul(hn::Mul(mu, factor), load(points.weight)), hn::Mul(f, f));
-            r = hn::Add(r, hn::Mul(k, load(points.r)));
-            g = hn::Add(g, hn::Mul(k, load(points.g)));
-            b = hn::Add(b, hn::Mul(k, load(points.b)));
-            w = hn::Add(w, k);
-        }
-        hn::Store(r, d, all[0] + begin);
-        hn::Store(g, d, all[1] + begin);
-        hn::Store(b, d, all[2] + begin);
-        hn::Store(w, d, all[3] + begin);
-    }
-    for (std::size_t c = 0; c < 4; ++c) {
-        double sum = 0;
-        for (const float value : all[c]) sum += static_cast<double>(value);
-        single.sum[c] += sum;
     }
 }
 
@@ -190,7 +172,6 @@ namespace pbr {
 
 HWY_EXPORT(add_block);
 HWY_EXPORT(add_nodes);
-HWY_EXPORT(add_points_to_one);
 
 // Gauss-Legendre over a texel of angle h converges once h is well below the distance of the kernel's poles,
 // which is about hypot(2 alpha, angle).
@@ -232,40 +213,6 @@ void ld_add_nodes(std::span<const MomentNode> nodes, double alpha, double normal
     (nodes, static_cast<float>(alpha * alpha), static_cast<float>(normalisation), group);
 }
 
-void ld_add_points(const PatchPoints& points, double alpha, double normalisation, LdSingle& single) {
-    HWY_DYNAMIC_DISPATCH(add_points_to_one)
-    (points, static_cast<float>(alpha * alpha), static_cast<float>(normalisation), single);
-}
-
-void ld_add_nodes(std::span<const MomentNode> nodes, double alpha, double normalisation, LdSingle& single) {
-    const double alpha2 = alpha * alpha, b = (1 - alpha2) / 2;
-    const glm::dvec3 n(single.n[0], single.n[1], single.n[2]);
-    std::array<double, kMonomials.size()> powers{};
-    for (std::size_t k = 0; k < powers.size(); ++k) {
-        powers[k] = 1;
-        for (int i = 0; i < kMonomials[k].a; ++i) powers[k] *= n.x;
-        for (int i = 0; i < kMonomials[k].b; ++i) powers[k] *= n.y;
-        for (int i = 0; i < kMonomials[k].c; ++i) powers[k] *= n.z;
-    }
-    for (const MomentNode& node : nodes) {
-        const double length = node.cone->length;
-        const glm::dvec3 apart = n - node.cone->centre();
-        const double versine = (glm::dot(apart, apart) + (1 - length) * (1 + length)) / 2, x = 1 - versine;
-        const double inverse = 1 / (alpha2 + b * versine), u = b * inverse;
-        const double share = normalisation * static_cast<double>(node.cone->solid_angle) * inverse * inverse;
-        const std::array<double, 4> derivatives{share * x, share * (1 + 2 * x * u),
-                                                share * u * (4 + 6 * x * u),
-                                                share * u * u * (18 + 24 * x * u)};
-        std::array<double, 4> sums{};
-        constexpr std::array<std::size_t, 5> kDegrees{0, 1, 4, 10, 20};
-        for (std::size_t j = 0; j < 4; ++j)
-            for (std::size_t k = kDegrees[j]; k < kDegrees[j + 1]; ++k)
-                for (std::size_t c = 0; c < 4; ++c)
-                    sums[c] += derivatives[j] * powers[k] * static_cast<double>(node.moments->mean[k][c]);
-        for (std::size_t c = 0; c < 4; ++c) single.sum[c] += sums[c];
-    }
-}
-
 namespace {
 
 /// The sums of all directions, kLdGroup of them a group.
@@ -281,6 +228,7 @@ std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, bool is_pa
     };
     for (std::size_t g = 0; g < group_count; ++g) cones[g] = ld_fill_group(of_group(g), groups[g]);
 
+    constexpr int kLast = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
     std::vector<PatchPoints> by_order(std::size(PatchBlocks::kOrders));
     for (int block = 0; block < source.count(); ++block) {
         const Cone& cone = source.cone(block);
@@ -292,9 +240,8 @@ std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, bool is_pa
             // The errors of a whole picture's texels cancel; those of a few bright ones don't, and get a step
             // more.
             const bool above = apart + cones[g].half_angle + cone.half_angle < std::numbers::pi / 2;
-            const int last = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
             const int index =
-                std::min(last, ld_order_index(source.texel_angle(), alpha, nearest) + (is_part && above));
+                std::min(kLast, ld_order_index(source.texel_angle(), alpha, nearest) + (is_part && above));
             PatchPoints& points = by_order[static_cast<std::size_t>(index)];
             if (points.size() == 0) source.points(block, index, points);
             ld_add_points(points, alpha, kernel.normalisation(), groups[g]);

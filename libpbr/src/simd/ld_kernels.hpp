@@ -11,6 +11,7 @@
 #include "pbr/ibl/patches.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/frame.hpp"
+#include "src/simd/patch_kernel.hpp"
 
 namespace pbr {
 
@@ -54,21 +55,22 @@ struct MomentNode {
     const Moments* moments;
 };
 
-/// Sums of one direction.
+/// One direction, and its sums: r, g, b and the weights' own.
 struct LdSingle {
-    float n[3];
+    glm::dvec3 n;
     double sum[4];
 };
-
-/// As below for one direction, points side by side.
-void ld_add_points(const PatchPoints& points, double alpha, double normalisation, LdSingle& single);
-void ld_add_nodes(std::span<const MomentNode> nodes, double alpha, double normalisation, LdSingle& single);
 
 /// Adds k weight radiance of all points to a group's sums, k = normalisation mu+ / f^2.
 void ld_add_points(const PatchPoints& points, double alpha, double normalisation, LdGroup& group);
 
-/// The same of nodes wholly above the horizon, k expanded to second order about each node's centre.
+/// The same of nodes, k expanded to third order about each node's centre.
 void ld_add_nodes(std::span<const MomentNode> nodes, double alpha, double normalisation, LdGroup& group);
+
+/// The same for one direction, points side by side: a list of them, or a block of an equirect.
+void ld_add_points(const PatchPoints& points, double alpha, double normalisation, LdSingle& single);
+void ld_add_points(const LatLongPatch& patch, double alpha, double normalisation, LdSingle& single);
+void ld_add_nodes(std::span<const MomentNode> nodes, double alpha, double normalisation, LdSingle& single);
 
 /// Samples that are summed side by side, whatever the vector width: what sets of MisSamples are padded to.
 inline constexpr int kMisPadding = 16;

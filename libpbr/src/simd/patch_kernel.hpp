@@ -10,6 +10,10 @@
 
 namespace pbr {
 
+/// Points along a row of a tabulated block at most: 16 texels of 8 points. Tables may be read this far beyond
+/// a row's end.
+inline constexpr int kMostLatLongWidth = 16, kLatLongColumns = 8 * kMostLatLongWidth, kLatLongPadding = 16;
+
 /// A block of an equirect's texels and its points: d = right sin(b) sin(a) + up cos(b) + ahead sin(b) cos(a)
 /// for longitudes a and colatitudes b, order x order a texel.
 struct LatLongPatch {

@@ -272,6 +272,27 @@ TEST(CubePyramid, EveryLevelsLookupsHoldThePicturesFlux) {
     }
 }
 
+TEST(CubePyramid, SamplesHoldALampsFluxWithinThreePercent) {
+    for (const CubeTexel lamp : {CubeTexel{0, 15, 15}, {2, 31, 9}, {5, 0, 0}, {3, 30, 1}}) {
+        std::vector<float> cube(std::size_t{32} * 32 * 18, 0.0f);
+        cube[(static_cast<std::size_t>((lamp.face * 32 + lamp.y) * 32) + lamp.x) * 3] = 1000;
+        const double flux = 1000 * cubemap_texel_solid_angle(32, lamp.x, lamp.y);
+        const CubePyramid pyramid(cube, 32);
+        constexpr int kParts = 96;
+        const std::vector<double> solid_angles = cubemap_solid_angles(kParts);
+        for (int level = 0; level < pyramid.levels(); ++level) {
+            double sum = 0;
+            for (int i = 0; i < 6 * kParts * kParts; ++i) {
+                const CubeTexel part{i / (kParts * kParts), i % kParts, i / kParts % kParts};
+                const glm::vec3 direction(cubemap_texel_direction(part, kParts));
+                sum += solid_angles[static_cast<std::size_t>(i % (kParts * kParts))] *
+                       static_cast<double>(pyramid.sample(direction, static_cast<float>(level)).x);
+            }
+            EXPECT_NEAR(sum / flux, 1, 0.03) << "face " << lamp.face << " level " << level;
+        }
+    }
+}
+
 /// The flux of a level (solid-angle weighted sum of red), and the direction of its first moment: blur
 /// shortens the moment and leaves its direction.
 struct Moments {
@@ -329,6 +350,8 @@ TEST(Ld, FilteredSamplesKeepALampsEnergyAndItsCentroid) {
             const int seeds = level == 1 ? 8 : 24;  // fewer texels have more noise
             const Moments few = moments(mean_over_seeds(pyramid, alpha, 32, size, seeds), size);
             EXPECT_NEAR(few.flux / truth.flux, 1, 0.02) << "face " << lamp.face << " level " << level;
+            EXPECT_LT(glm::length(few.centroid - truth.centroid), 0.5 * 2 / size)
+                << "face " << lamp.face << " level " << level;
             const Moments many = moments(mean_over_seeds(pyramid, alpha, 256, size, seeds), size);
             EXPECT_NEAR(many.flux / truth.flux, 1, 0.02) << "face " << lamp.face << " level " << level;
             EXPECT_LT(glm::length(many.centroid - truth.centroid), 0.1 * 2 / size)

@@ -6,8 +6,10 @@
 // middle, 9 : 3 : 3 : 1, across edges too. That leaves a light's centroid where it is; the mean of four would
 // move it to the middle of the four. A texel then holds its flux over the solid angle H under its bilinear
 // weight, the integral over all places of lookup. What each texel has in its fourth channel is the same of a
-// white environment, W / H, and a lookup is the quotient: white stays white, and the integral of any level's
-// lookups is the picture's flux.
+// white environment, W / H, and a lookup is the quotient, so that white stays white. The integral of any
+// level's lookups before the quotient is the picture's flux. After it a lamp of one texel keeps its own
+// within 3 %: at a corner of the cube it loses .5, 1.7 and 2.8 % on levels of 16, 8 and 4 texels a side, in
+// the middle of a face it gains up to 2.2 %.
 
 #include <cstdint>
 #include <glm/vec3.hpp>

@@ -15,6 +15,7 @@
 
 #include <cmath>
 #include <glm/vec3.hpp>
+#include <vector>
 
 namespace pbr {
 
@@ -80,6 +81,9 @@ double cube_rectangle_solid_angle(double s0, double s1, double t0, double t1);
 
 /// Solid angle of texel (x, y) of any face, sr. The texels of a cube sum to 4 pi within 1e-12.
 double cubemap_texel_solid_angle(int size, int x, int y);
+
+/// Those of a whole face, by rows: the same on all faces.
+std::vector<double> cubemap_solid_angles(int size);
 
 /// The texel that lies across the edge from (x, y), where x or y (not both) is -1 or size: the one that
 /// shares that piece of the edge. For an (x, y) inside the face, that texel itself.

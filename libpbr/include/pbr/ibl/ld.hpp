@@ -66,7 +66,8 @@ void ld_sampled(const CubePyramid& pyramid, const LdSamples& samples, std::uint6
 /// the texel is to the lobe against its own size. Divided by the sum of k's own weights, so that a constant
 /// environment is returned to float's rounding. Returns the largest |1 - integral of k| found, the
 /// quadrature's own check and about the relative error: below 3e-5 for pictures of 128 texels around and
-/// more, 2e-4 at 32, for alpha >= .003. Adds its kernel evaluations to `evaluations`.
+/// more, 2e-4 at 32, for alpha >= .003. A lamp of one texel that the horizon cuts is off by up to its texel's
+/// share: the trees below cut it finer. Adds its kernel evaluations to `evaluations`.
 double ld_exact(const PatchBlocks& source, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations);
 
@@ -89,7 +90,7 @@ LdTreeError ld_exact(const MomentTree& source, double alpha, double tolerance,
                      std::uint64_t& evaluations);
 
 /// The same sum over part of a sphere, not divided by anything: what the texels of `part` add to LD. Relative
-/// error below 1e-5.
+/// error below 1e-5, but for texels that the horizon cuts: these are taken by their points.
 void ld_partial(const PatchBlocks& part, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations);
 

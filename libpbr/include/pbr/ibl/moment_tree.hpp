@@ -89,9 +89,14 @@ class MomentTree {
 /// Bands that moments up to the third determine: Y of l <= 3 are polynomials of as low a degree.
 inline constexpr int kMomentBands = 4;
 
-/// Coefficients of the picture's RGB radiance in spherical harmonics, in the order of sh_index, from the
-/// moments of the whole: bands 1 to kMomentBands. Relative to the mean radiance within 1e-5 of the picture's
-/// points, whatever its size.
-std::vector<glm::dvec3> sh_project(const MomentTree& source, int bands);
+/// Integrals over the sphere of RGB radiance times kMonomials of the direction: sums, not means.
+using SphereMoments = std::array<glm::dvec3, kMomentCount>;
+
+/// Of a whole picture. Relative to the mean radiance within 1e-5 of the picture's points, whatever its size.
+SphereMoments sphere_moments(const MomentTree& source);
+
+/// Coefficients in spherical harmonics of what has these moments, in the order of sh_index: bands 1 to
+/// kMomentBands. Exact but for rounding.
+std::vector<glm::dvec3> sh_project(const SphereMoments& moments, int bands);
 
 }  // namespace pbr

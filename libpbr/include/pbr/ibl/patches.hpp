@@ -36,6 +36,8 @@ struct Cone {
 /// The angle in [0, pi] between unit vectors that lie `chord` apart; chords a rounding above 2 count as 2.
 double angle_of_chord(double chord);
 
+struct LatLongPatch;  // see simd/patch_kernel.hpp
+
 /// A picture cut into square blocks, 4 texels a side and up to 16 in large pictures, so that their number
 /// stays bounded. Keeps a view: the picture must outlive it.
 class PatchBlocks {
@@ -85,6 +87,10 @@ class PatchBlocks {
     /// As points(), after what `points` held.
     void append_points(int block, int order_index, PatchPoints& points) const;
 
+    /// A block of an equirect as its axes, for kernels that need no list of its points; `patch` is filled and
+    /// points into this. False where the axes aren't tabulated: of cubes, and for orders above 8.
+    bool tabulated_patch(int block, int order_index, LatLongPatch& patch) const;
+
   private:
     struct Block {
         int face, x, y;  ///< first texel
@@ -105,6 +111,9 @@ class PatchBlocks {
     /// Unit vector in the world of a place in half texels.
     glm::dvec3 direction(int face, int half_x, int half_y) const;
     void append(const Block& block, int order_index, PatchPoints& points) const;
+    bool is_tabulated(int order_index) const;
+    LatLongPatch lat_long_patch(const Block& block, int order_index, const AxisPoints& columns,
+                                const AxisPoints& rows) const;
     void equirect_points(const Block& block, int order_index, std::size_t at, PatchPoints& points) const;
     void cube_points(const Block& block, const QuadratureRule& rule, std::size_t at,
                      PatchPoints& points) const;

@@ -1,0 +1,137 @@
+// What certificates say of probes, against full measurements and planted errors.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bakers/io/io.hpp"
+#include "tests/bakers/probe/pictures.hpp"
+
+namespace pbrbake::probe {
+namespace {
+
+/// Figures of a metric, by level from 1 on.
+std::vector<Figure> figures_of(const Certificate& certificate, const std::string& metric) {
+    std::vector<Figure> found;
+    for (const Figure& figure : certificate.figures)
+        if (figure.metric == metric && figure.level > 0) found.push_back(figure);
+    return found;
+}
+
+/// How often the intervals of many sampled certificates hold the relative_rmse that a full one measures; none
+/// may find a larger error than there is.
+double coverage(const ProbeParams& params, const Inputs& inputs, PixelType pixel) {
+    Product product = bake_probe(params, inputs);
+    product.scale = io::quantise(product.images, pixel);
+    Context full_context(2, {});
+    full_context.set_certify_fully(true);
+    const Certificate full = certify(params, inputs, product, full_context);
+    const std::vector<Figure> truth = figures_of(full, "relative_rmse"),
+                              largest = figures_of(full, "max_error_over_mean");
+    double held = 0;
+    constexpr int kSeeds = 40;
+    int count = 0;
+    for (int seed = 0; seed < kSeeds; ++seed) {
+        ProbeParams with_seed = params;
+        with_seed.seed = static_cast<std::uint64_t>(seed) + 100;
+        Context context(2, {});
+        const Certificate sampled = certify(with_seed, inputs, product, context);
+        count += params.levels - 1;
+        const std::vector<Figure> ours = figures_of(sampled, "relative_rmse"),
+                                  found = figures_of(sampled, "max_error_over_mean");
+        for (std::size_t l = 0; l < truth.size(); ++l) {
+            EXPECT_EQ(truth[l].evidence, Evidence::measured);
+            EXPECT_LE(found[l].value, largest[l].value + 1e-4);  // both against sums with a far field
+            const auto [low, high] = ours[l].interval.value_or(std::pair{ours[l].value, ours[l].value});
+            held += low <= truth[l].value * (1 + 1e-4) && truth[l].value <= high * (1 + 1e-4);
+        }
+    }
+    return held / count;
+}
+
+TEST(ProbeCertificate, IntervalsHoldTheFullMeasurement) {
+    ProbeParams params = defaults();
+    const Inputs soft = equirect(
+        64, [](const glm::dvec3& d) { return glm::dvec3(1 + d.x, d.y > 0 ? 3 : 0.5, d.z > 0.8 ? 5 : 0.1); });
+    const Inputs sun = equirect(128, [](const glm::dvec3& d) {
+        return glm::dvec3(1 + d.y) + glm::dvec3(d.x * 0.48 + d.y * 0.6 + d.z * 0.64 > 0.9985 ? 1e5 : 0);
+    });
+    for (const Inputs* inputs : {&soft, &sun})
+        for (const Integrator integrator : {Integrator::fis, Integrator::harmonic})
+            for (const PixelType pixel : {PixelType::half, PixelType::float32}) {
+                if (pixel == PixelType::half && integrator == Integrator::fis)
+                    continue;  // its noise hides storage
+                params.integrator = integrator;
+                params.samples = {integrator == Integrator::fis ? 64 : 0};
+                EXPECT_GE(coverage(params, *inputs, pixel), 0.9)
+                    << "sun " << (inputs == &sun) << " integrator " << static_cast<int>(integrator)
+                    << " half " << (pixel == PixelType::half);
+            }
+}
+
+TEST(ProbeCertificate, LowBandsAndEnergyShowWhatSamplesMayMiss) {
+    // One texel in a thousand wrong: hash-chosen texels miss it, sums over all texels don't.
+    const Inputs inputs = equirect(128, axes_picture);
+    ProbeParams params = defaults();
+    params.integrator = Integrator::harmonic;
+    params.samples = {0};
+    params.size = 64;
+    const Product sound = bake_probe(params, inputs);
+    Product broken = sound;
+    for (std::size_t i = 0; i < 18; ++i) broken.images[0].levels[1].texels[5000 + i] = 0;
+    Context context(2, {});
+    const Figure of_sound = figures_of(certify(params, inputs, sound, context), "low_band_error")[0];
+    const Figure of_broken = figures_of(certify(params, inputs, broken, context), "low_band_error")[0];
+    EXPECT_LT(of_sound.value, 1.0 / (32 * 32));
+    EXPECT_GT(of_broken.value, 3 * of_sound.value);
+}
+
+TEST(ProbeCertificate, FindsPlantedErrors) {
+    const Inputs inputs = equirect(64, axes_picture);
+    ProbeParams params = defaults();
+    params.samples = {1024};
+    const Product sound = bake_probe(params, inputs);
+    const auto headline = [&](const Product& product) {
+        Context context(2, {});
+        return certify(params, inputs, product, context).headline->value;
+    };
+    EXPECT_LT(headline(sound), 5e-3);
+    Product dimmed = sound, mirror_off = sound, swapped = sound;
+    for (float& value : dimmed.images[0].levels[2].texels) value *= 0.98f;
+    for (float& value : mirror_off.images[0].levels[0].texels) value *= 1.02f;
+    auto& texels = swapped.images[0].levels[1].texels;
+    std::swap_ranges(texels.begin(), texels.begin() + 16 * 16 * 3,
+                     texels.begin() + 16 * 16 * 3);  // +X and -X
+    for (const Product* broken : {&dimmed, &mirror_off, &swapped}) EXPECT_GT(headline(*broken), 0.015);
+}
+
+TEST(ProbeCertificate, CountsEveryTexelOnceAtAnySize) {
+    const Inputs inputs = equirect(32, axes_picture);
+    for (const int size : {6, 9}) {
+        ProbeParams params = defaults();
+        params.size = size * 2;
+        params.levels = 2;
+        params.samples = {16};
+        const Product product = bake_probe(params, inputs);
+        ProbeParams reference = params;
+        reference.integrator = Integrator::reference;
+        const Product truth = bake_probe(reference, inputs);
+        const auto &a = product.images[0].levels[1].texels, &b = truth.images[0].levels[1].texels;
+        double squared = 0, mean = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            squared += (a[i] - b[i]) * (a[i] - b[i]);
+            mean += a[i];
+        }
+        const double expected = std::sqrt(squared * static_cast<double>(a.size())) / mean;
+        Context context(1, {});
+        context.set_certify_fully(true);
+        for (const Figure& figure : certify(params, inputs, product, context).figures)
+            if (figure.metric == "relative_rmse" && figure.level == 1) {
+                EXPECT_NEAR(figure.value, expected, 2e-3 * expected);  // the reference is off by its points
+            }
+    }
+}
+
+}  // namespace
+}  // namespace pbrbake::probe
