@@ -218,10 +218,10 @@ class Conversion {
         if (result_.spot_law) {
             result_.spot = pbr::fit_spot(*result_.spot_law);
             constexpr double kNoticeable = .05;
-            if (result_.spot->rms_share > kNoticeable)
+            if (result_.spot->error.rms_share > kNoticeable)
                 add(Severity::warning, "cone_far",
                     "fades from its axis as no photometric spot does: " +
-                        share_text(result_.spot->rms_share) +
+                        share_text(result_.spot->error.rms_share) +
                         " of the intensity on the axis is left between them (root mean square)");
         }
         set_power();

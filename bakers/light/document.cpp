@@ -99,9 +99,9 @@ Json spot_json(const ConvertedLight& light) {
     return {{"inner_half_angle_deg", rounded(light.spot->inner_rad / kDegree)},
             {"outer_half_angle_deg", rounded(light.spot->outer_rad / kDegree)},
             {"exact", light.spot->is_exact},
-            {"rms_share_of_axis", rounded(light.spot->rms_share)},
-            {"max_share_of_axis", rounded(light.spot->max_share)},
-            {"flux_stops", rounded(light.spot->flux_stops)}};
+            {"rms_share_of_axis", rounded(light.spot->error.rms_share)},
+            {"max_share_of_axis", rounded(light.spot->error.max_share)},
+            {"flux_stops", rounded(light.spot->error.flux_stops)}};
 }
 
 double headroom_stops(const ConvertedLight& light) {
