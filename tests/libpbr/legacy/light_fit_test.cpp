@@ -106,10 +106,10 @@ Falloff drawn_law(int i) {
     return law;
 }
 
-/// A dozen laws, each against 90,000 lights on an even grid of radius and end, by the plain formulas at
+/// A dozen laws, each against 40,000 lights on an even grid of radius and end, by the plain formulas at
 /// distances of its own: neither the zoom nor the parametrisation nor the distances are shared.
 TEST(LightFit, IsWithinTwoPercentOfTheBestOfADenseSearch) {
-    constexpr int kDistances = 40, kRadii = 300, kEnds = 300;
+    constexpr int kDistances = 40, kRadii = 200, kEnds = 200;
     for (int i = 0; i < 12; ++i) {
         const Falloff law = drawn_law(i);
         const DistanceSpan span = distances_that_matter(law, 1, 1. / 256);
