@@ -66,8 +66,9 @@ double solid_angle_of(const pbr::SpotFalloff& law) {
 
 class Conversion {
   public:
-    Conversion(const LegacyLight& light, parse::UpAxis up, const Anchor& anchor, const LightParams& params)
-        : light_(light), up_(up), anchor_(anchor), params_(params) {}
+    Conversion(const LegacyLight& light, parse::UpAxis up, const Anchor& anchor, const LightParams& params,
+               Fits fits)
+        : light_(light), up_(up), anchor_(anchor), params_(params), fits_(fits) {}
 
     ConvertedLight run() {
         result_.name = light_.name;
@@ -214,6 +215,7 @@ class Conversion {
             return;
         }
         set_span();
+        if (fits_ == Fits::left_out) return;
         fit();
         if (result_.spot_law) {
             result_.spot = pbr::fit_spot(*result_.spot_law);
@@ -328,6 +330,7 @@ class Conversion {
     parse::UpAxis up_;
     const Anchor& anchor_;
     const LightParams& params_;
+    Fits fits_;
     ConvertedLight result_;
 };
 
@@ -349,8 +352,8 @@ bool ConvertedLight::has(std::string_view code) const {
 }
 
 ConvertedLight convert(const LegacyLight& light, parse::UpAxis up, const Anchor& anchor,
-                       const LightParams& params) {
-    return Conversion(light, up, anchor, params).run();
+                       const LightParams& params, Fits fits) {
+    return Conversion(light, up, anchor, params, fits).run();
 }
 
 }  // namespace pbrbake::light

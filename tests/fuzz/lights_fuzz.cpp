@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const light::LightParams params{};
         for (std::size_t i = 0; i < std::min(file.lights.size(), kMost); ++i) {
             const light::ConvertedLight light =
-                light::convert(file.lights[i], file.up, {100, file.unit_m, 683, .1}, params);
+                light::convert(file.lights[i], file.up, {100, file.unit_m, 683, .1}, params, light::Fits::made);
             expect(std::isfinite(light.illuminance_lx) && light.illuminance_lx >= 0);
             if (!light.fit) continue;
             expect(std::isfinite(light.fit->light.intensity) && light.fit->light.intensity >= 0);

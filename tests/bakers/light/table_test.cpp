@@ -32,7 +32,7 @@ std::string vmf(const std::string& hard) {
 }
 
 std::string map(const std::string& keys) {
-    return "{\n\"classname\" \"light\"\n\"light\" \"128\"\n" + keys + "}\n";
+    return "{\n\"classname\" \"light\"\n\"light\" \"247.2727\"\n" + keys + "}\n";
 }
 
 std::string three(const std::string& fields, bool is_physical) {
