@@ -78,7 +78,9 @@ TEST(LightFormats, WriteWhatKhronosValidatorTakes) {
     std::string command = "node '" + (external / "check_gltf.mjs").string() + "'";
     for (const Format& format : kFormats) {
         const Baked baked = bake_text(format.text, defaults(), format.name);
-        command += " '" + folder.write(std::string(format.name) + ".gltf", job::to_text(baked.gltf())).string() + "'";
+        command += " '" +
+                   folder.write(std::string(format.name) + ".gltf", job::to_text(baked.gltf())).string() +
+                   "'";
     }
     EXPECT_EQ(std::system((command + " >&2").c_str()), 0);
     // It does look at lights.
