@@ -30,11 +30,13 @@ void warn_of_lights(const ConvertedFile& file, const std::string& source, Produc
             ++kind->lights;
         }
     }
-    for (const Kind& kind : kinds)
+    for (const Kind& kind : kinds) {
+        const std::size_t others = kind.lights - 1;
         product.warnings.push_back(kind.first +
-                                   (kind.lights > 2 ? "; so do " + std::to_string(kind.lights - 1) + " others"
-                                    : kind.lights > 1 ? "; so does another"
-                                                      : ""));
+                                   (others > 1   ? " (" + std::to_string(others) + " other lights likewise)"
+                                    : others > 0 ? " (1 other light likewise)"
+                                                 : ""));
+    }
 }
 
 void warn(const ConvertedFile& file, const std::string& source, Product& product) {

@@ -95,6 +95,7 @@ class Survey {
         const Worst& all = all_.lights > 0 ? all_ : gltf_;
         Certificate certificate;
         certificate.headline = all.figure("stops_rms", method);
+        certificate.headline->curve = nullptr;  // it is one of the laws' below
         certificate.figures.push_back(*certificate.headline);
         certificate.figures.push_back(
             measured("stops_max", all.max, "largest difference of any light at those distances"));
