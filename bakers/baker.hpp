@@ -60,6 +60,7 @@ struct Figure {
     std::string method;  ///< how, in words
     std::optional<std::pair<double, double>> interval;
     std::optional<int> level;
+    Json curve = nullptr;  ///< what the value sums up: {"columns": […], "rows": [[…], …]}
 };
 
 /// What is known of a product's error, and the work done for the bake. Deterministic: no times.

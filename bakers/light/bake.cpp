@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "bakers/light/converted_file.hpp"
 #include "bakers/light/light.hpp"
@@ -12,13 +13,36 @@ std::string place_of(const std::string& source, const ConvertedLight& light) {
     return place.append(": \"").append(light.name).append("\" ");
 }
 
+/// One warning a kind and file: the first light's, and how many others have it too.
+void warn_of_lights(const ConvertedFile& file, const std::string& source, Product& product) {
+    struct Kind {
+        std::string code, first;
+        std::size_t lights = 0;
+    };
+    std::vector<Kind> kinds;
+    for (const ConvertedLight& light : file.lights) {
+        std::set<std::string_view> told;
+        for (const parse::Diagnostic& d : light.flags) {
+            if (d.severity == parse::Severity::note || !told.insert(d.code).second) continue;
+            auto kind = std::ranges::find(kinds, d.code, &Kind::code);
+            if (kind == kinds.end())
+                kind = kinds.insert(kind, {d.code, place_of(source, light) + d.message, 0});
+            ++kind->lights;
+        }
+    }
+    for (const Kind& kind : kinds) {
+        const std::size_t others = kind.lights - 1;
+        product.warnings.push_back(kind.first +
+                                   (others > 1   ? " (" + std::to_string(others) + " other lights likewise)"
+                                    : others > 0 ? " (1 other light likewise)"
+                                                 : ""));
+    }
+}
+
 void warn(const ConvertedFile& file, const std::string& source, Product& product) {
-    const auto is_loud = [](const parse::Diagnostic& d) { return d.severity != parse::Severity::note; };
     for (const parse::Diagnostic& d : file.diagnostics)
-        if (is_loud(d)) product.warnings.push_back(source + ": " + d.message);
-    for (const ConvertedLight& light : file.lights)
-        for (const parse::Diagnostic& d : light.flags)
-            if (is_loud(d)) product.warnings.push_back(place_of(source, light) + d.message);
+        if (d.severity != parse::Severity::note) product.warnings.push_back(source + ": " + d.message);
+    warn_of_lights(file, source, product);
     if (file.lights.empty()) product.warnings.push_back(source + ": holds no lights");
 }
 
@@ -60,7 +84,7 @@ std::vector<std::string> documents(const LightParams& params) {
 
 Product bake(const LightParams& params, const Inputs& inputs, Context& context) {
     const SourceImage& source = inputs.at("source");
-    const ConvertedFile file = convert_file(params, source, context);
+    const ConvertedFile file = convert_file(params, source, context, Fits::made);
     context.count("lights", file.lights.size());
     Product product;
     product.units = "photometric";

@@ -66,8 +66,9 @@ double solid_angle_of(const pbr::SpotFalloff& law) {
 
 class Conversion {
   public:
-    Conversion(const LegacyLight& light, parse::UpAxis up, const Anchor& anchor, const LightParams& params)
-        : light_(light), up_(up), anchor_(anchor), params_(params) {}
+    Conversion(const LegacyLight& light, parse::UpAxis up, const Anchor& anchor, const LightParams& params,
+               Fits fits)
+        : light_(light), up_(up), anchor_(anchor), params_(params), fits_(fits) {}
 
     ConvertedLight run() {
         result_.name = light_.name;
@@ -214,14 +215,15 @@ class Conversion {
             return;
         }
         set_span();
+        if (fits_ == Fits::left_out) return;
         fit();
         if (result_.spot_law) {
             result_.spot = pbr::fit_spot(*result_.spot_law);
             constexpr double kNoticeable = .05;
-            if (result_.spot->rms_share > kNoticeable)
+            if (result_.spot->error.rms_share > kNoticeable)
                 add(Severity::warning, "cone_far",
                     "fades from its axis as no photometric spot does: " +
-                        share_text(result_.spot->rms_share) +
+                        share_text(result_.spot->error.rms_share) +
                         " of the intensity on the axis is left between them (root mean square)");
         }
         set_power();
@@ -328,6 +330,7 @@ class Conversion {
     parse::UpAxis up_;
     const Anchor& anchor_;
     const LightParams& params_;
+    Fits fits_;
     ConvertedLight result_;
 };
 
@@ -349,8 +352,8 @@ bool ConvertedLight::has(std::string_view code) const {
 }
 
 ConvertedLight convert(const LegacyLight& light, parse::UpAxis up, const Anchor& anchor,
-                       const LightParams& params) {
-    return Conversion(light, up, anchor, params).run();
+                       const LightParams& params, Fits fits) {
+    return Conversion(light, up, anchor, params, fits).run();
 }
 
 }  // namespace pbrbake::light

@@ -60,12 +60,17 @@ struct ConvertedLight {
     std::vector<parse::Diagnostic> flags;
 
     bool has(std::string_view code) const;
+    /// A law that fades with distance, and so a fit of it.
+    bool fades() const { return span_m.far > 0; }
     /// A light that glTF can hold: positive, lit, and a point, spot or sun.
     bool is_punctual() const { return !is_fill && !is_dark; }
 };
 
+/// Whether a conversion fits lights to the laws, or only says what the laws are: law_lx, span_m, spot_law.
+enum class Fits { made, left_out };
+
 /// Converts a light. `colours` replaces the file's own encoding where it isn't automatic.
 ConvertedLight convert(const parse::LegacyLight& light, parse::UpAxis up, const Anchor& anchor,
-                       const LightParams& params);
+                       const LightParams& params, Fits fits);
 
 }  // namespace pbrbake::light

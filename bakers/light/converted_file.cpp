@@ -13,7 +13,8 @@ double tolerance_stops(const Accuracy& accuracy) {
 
 }  // namespace
 
-ConvertedFile convert_file(const LightParams& params, const SourceImage& source, Context& context) {
+ConvertedFile convert_file(const LightParams& params, const SourceImage& source, Context& context,
+                           Fits fits) {
     const parse::LightFile file = parse::parse_lights(source.bytes, source.name,
                                                       {static_cast<parse::ThreeLights>(params.three_lights),
                                                        static_cast<parse::GltfUnits>(params.gltf_units)});
@@ -40,7 +41,7 @@ ConvertedFile convert_file(const LightParams& params, const SourceImage& source,
                          [&](std::int64_t begin, std::int64_t end) {
                              for (std::int64_t i = begin; i < end; ++i) {
                                  const auto k = static_cast<std::size_t>(i);
-                                 converted.lights[k] = convert(file.lights[k], file.up, anchor, params);
+                                 converted.lights[k] = convert(file.lights[k], file.up, anchor, params, fits);
                              }
                              context.advance(static_cast<double>(end - begin));
                          });

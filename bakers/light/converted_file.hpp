@@ -6,6 +6,6 @@
 namespace pbrbake::light {
 
 /// Parses and converts a source, light by light on the context's threads.
-ConvertedFile convert_file(const LightParams& params, const SourceImage& source, Context& context);
+ConvertedFile convert_file(const LightParams& params, const SourceImage& source, Context& context, Fits fits);
 
 }  // namespace pbrbake::light

@@ -64,22 +64,6 @@ Json error_json(const pbr::StopsError& error) {
     return {{"rms", rounded(error.rms)}, {"max", rounded(error.max)}, {"max_at_m", rounded(error.max_at)}};
 }
 
-/// Illuminance before and after over the span, in equal steps of the logarithm of distance.
-Json curve_json(const ConvertedLight& light) {
-    Json curve = Json::array();
-    const double ratio = pbr::log_exact(light.span_m.far / light.span_m.near);
-    for (int i = 0; i < kCurvePoints; ++i) {
-        const double d = light.span_m.near * pbr::exp_exact(ratio * i / (kCurvePoints - 1));
-        const double legacy = light.law_lx * pbr::falloff_at(light.law, d),
-                     fitted = pbr::illuminance_at(light.fit->light, d);
-        Json point{rounded(d), rounded(legacy), rounded(fitted)};
-        point.push_back(legacy > 0 && fitted > 0 ? Json(rounded(pbr::log2_exact(fitted / legacy)))
-                                                 : Json(nullptr));
-        curve.push_back(std::move(point));
-    }
-    return curve;
-}
-
 Json fit_json(const ConvertedLight& light) {
     Json json{{"law", law_text(light.law)},
               {"kind", law_kind(light.law)},
@@ -90,8 +74,7 @@ Json fit_json(const ConvertedLight& light) {
               {"stops", error_json(light.fit->error)},
               {"stops_as_point", error_json(light.point->error)},
               {"stops_in_gltf", error_json(light.gltf->error)}};
-    json["curve"] = {{"columns", {"distance_m", "legacy_lx", "fitted_lx", "stops"}},
-                     {"rows", curve_json(light)}};
+    json["curve"] = curve_json(light, light.fit->light, "fitted_lx");
     return json;
 }
 
@@ -99,9 +82,9 @@ Json spot_json(const ConvertedLight& light) {
     return {{"inner_half_angle_deg", rounded(light.spot->inner_rad / kDegree)},
             {"outer_half_angle_deg", rounded(light.spot->outer_rad / kDegree)},
             {"exact", light.spot->is_exact},
-            {"rms_share_of_axis", rounded(light.spot->rms_share)},
-            {"max_share_of_axis", rounded(light.spot->max_share)},
-            {"flux_stops", rounded(light.spot->flux_stops)}};
+            {"rms_share_of_axis", rounded(light.spot->error.rms_share)},
+            {"max_share_of_axis", rounded(light.spot->error.max_share)},
+            {"flux_stops", rounded(light.spot->error.flux_stops)}};
 }
 
 double headroom_stops(const ConvertedLight& light) {
@@ -201,6 +184,20 @@ double rounded(double value) {
     return back;
 }
 
+Json curve_json(const ConvertedLight& light, const pbr::PhysicalLight& other, const char* name) {
+    Json rows = Json::array();
+    const double ratio = pbr::log_exact(light.span_m.far / light.span_m.near);
+    for (int i = 0; i < kCurvePoints; ++i) {
+        const double d = light.span_m.near * pbr::exp_exact(ratio * i / (kCurvePoints - 1));
+        const double legacy = light.law_lx * pbr::falloff_at(light.law, d),
+                     found = pbr::illuminance_at(other, d);
+        const bool is_lit = legacy > 0 && found > 0;
+        rows.push_back({rounded(d), rounded(legacy), rounded(found),
+                        is_lit ? Json(rounded(pbr::log2_exact(found / legacy))) : Json(nullptr)});
+    }
+    return {{"columns", {"distance_m", "legacy_lx", name, "stops"}}, {"rows", std::move(rows)}};
+}
+
 std::string law_kind(const pbr::Falloff& law) {
     std::string base;
     if (law.power > 0) {
@@ -241,7 +238,10 @@ std::string law_text(const pbr::Falloff& law) {
         add(law.linear, "d");
         add(law.quadratic, "d^2");
         const bool is_sum = sum.find(' ') != sum.npos;
-        text = sum.empty() || sum == "1" ? "1" : is_sum ? "1 / (" + sum + ")" : "1 / " + sum;
+        text = sum.empty() || sum == "1"  ? "1"
+               : law.floor > law.constant ? "1 / max(" + sum + ", " + n(law.floor) + ")"
+               : is_sum                   ? "1 / (" + sum + ")"
+                                          : "1 / " + sum;
     }
     if (!pbr::has_range(law)) return text;
     const std::string range = n(law.range);

@@ -28,6 +28,10 @@ Json lights_json(const ConvertedFile& file);
 /// named in the scene's extras.
 Json gltf_json(const ConvertedFile& file);
 
+/// A table of a light's law and of a light that stands for it, over the distances that matter in equal steps
+/// of their logarithm: distance_m, legacy_lx, fitted_lx (by the name given), stops (null where one is dark).
+Json curve_json(const ConvertedLight& light, const pbr::PhysicalLight& other, const char* name);
+
 /// A law in words and numbers: "1 / (1 + 0.04 d^2)", lengths in metres.
 std::string law_text(const pbr::Falloff& law);
 

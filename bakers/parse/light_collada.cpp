@@ -1,10 +1,13 @@
 // Lights of a COLLADA document (1.4.1 specification, "Lighting"): attenuation 1 / (constant + linear d +
 // quadratic d^2), a spot's cos^falloff_exponent inside falloff_angle, which exporters write as the cone's
-// full angle (Blender, OpenCOLLADA). Colours hold the intensity; they have no unit.
+// full angle (Blender, OpenCOLLADA). Colours hold the intensity; they have no unit. Blender
+// (LightExporter.cpp) writes energy times colour, which are watts since 2.80, and the blend of its cone as
+// the exponent.
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <pugixml.hpp>
 #include <set>
 
@@ -17,6 +20,21 @@ namespace pbrbake::parse {
 namespace {
 
 constexpr int kDeepest = 128;
+
+/// Of a version that begins "2.79.0" or "4.1".
+bool is_since_280(std::string_view version) {
+    const auto number = [&] {
+        double value = 0;
+        while (!version.empty() && version.front() >= '0' && version.front() <= '9') {
+            value = 10 * value + (version.front() - '0');
+            version.remove_prefix(1);
+        }
+        if (version.starts_with('.')) version.remove_prefix(1);
+        return value;
+    };
+    const double major = number();
+    return major > 2 || (major == 2 && number() >= 80);
+}
 
 class Collada {
   public:
@@ -51,6 +69,8 @@ class Collada {
             lights.unit_is_stated = true;
         }
         if (trimmed(asset.child_value("up_axis")) == "Z_UP") lights.up = UpAxis::z;
+        const std::string_view tool = trimmed(asset.child("contributor").child_value("authoring_tool"));
+        is_in_watts_ = tool.starts_with("Blender ") && is_since_280(tool.substr(8));
         for (const pugi::xml_node light : root_.child("library_lights").children("light"))
             if (light.attribute("id")) lights_.emplace(light.attribute("id").value(), light);
         for (const pugi::xml_node scene : root_.child("library_visual_scenes").children("visual_scene"))
@@ -132,18 +152,37 @@ class Collada {
         return light;
     }
 
-    /// FCollada's multiplier, and Blender's habit of writing its blend as the exponent.
+    /// FCollada's multiplier, and what Blender means by its numbers.
     void read_extras(const pugi::xml_node& node, LegacyLight& light) const {
         for (const pugi::xml_node extra : node.children("extra"))
             for (const pugi::xml_node technique : extra.children("technique")) {
                 const std::string_view profile = technique.attribute("profile").value();
                 if (profile == "FCOLLADA") light.intensity *= number(technique, "intensity", 1);
-                if (profile == "blender" && light.spot)
-                    light.diagnostics.push_back({Severity::warning, "blender_exponent", light.line,
-                                                 "is Blender's, which wrote the blend of its cone as "
-                                                 "falloff_exponent; read as the exponent "
-                                                 "that COLLADA says it is"});
+                if (profile == "blender") read_blender(technique, light);
             }
+        if (!is_in_watts_ || light.type == LightType::ambient) return;
+        const bool is_sun = light.type == LightType::directional;
+        light.unit = is_sun ? LightUnit::watt_per_m2 : LightUnit::watt;
+        if (!is_sun) light.falloff = {0, 0, 1};
+        light.diagnostics.push_back(
+            {Severity::note, "blender_watts", light.line,
+             "is Blender's of 2.80 or later: watts, whatever attenuation is written"});
+    }
+
+    /// Blender writes the blend of its cone as the exponent: what share of the cone's cosine a smoothstep
+    /// takes.
+    void read_blender(const pugi::xml_node& technique, LegacyLight& light) const {
+        constexpr int kArea = 4;
+        if (number(technique, "type", 0) == kArea)
+            light.diagnostics.push_back({Severity::warning, "blender_area", light.line,
+                                         "was an area light, which Blender writes as a point light"});
+        if (!light.spot) return;
+        pbr::SpotFalloff& spot = *light.spot;
+        const double outer = pbr::sin_cos_pi(spot.outer_rad / std::numbers::pi).cos,
+                     inner = outer + std::clamp(spot.exponent, 0., 1.) * (1 - outer);
+        spot.law = pbr::SpotLaw::smoothstep;
+        spot.inner_rad = pbr::atan2_exact(std::sqrt((1 - inner) * (1 + inner)), inner);
+        spot.exponent = 1;
     }
 
     glm::dmat4 transform_of(const pugi::xml_node& node) const {
@@ -200,6 +239,7 @@ class Collada {
     pugi::xml_node root_;
     std::map<std::string, pugi::xml_node> lights_;
     std::set<std::string> used_;
+    bool is_in_watts_ = false;
 };
 
 }  // namespace

@@ -79,7 +79,6 @@ pbr::SpotFalloff read_spot(const JsonFields& light) {
     pbr::SpotFalloff spot;
     spot.outer_rad = light.number({"outer_deg"}, 45) * kRadPerDegree;
     spot.inner_rad = light.number({"inner_deg"}, 0) * kRadPerDegree;
-    spot.exponent = light.number({"spot_exponent"}, 0);
     const std::string law = light.text({"spot_law"}, light.has("spot_exponent") ? "cosine_power"
                                                      : light.has("inner_deg")   ? "cosine_ramp"
                                                                                 : "hard");
@@ -87,12 +86,12 @@ pbr::SpotFalloff read_spot(const JsonFields& light) {
         spot.law = pbr::SpotLaw::cosine_power;
     } else if (law == "cosine_ramp") {
         spot.law = pbr::SpotLaw::cosine_ramp;
-        if (!light.has("spot_exponent")) spot.exponent = 2;
     } else if (law == "smoothstep") {
         spot.law = pbr::SpotLaw::smoothstep;
     } else if (law != "hard") {
         light.refuse("spot_law", "hard, cosine_power, cosine_ramp, smoothstep");
     }
+    spot.exponent = light.number({"spot_exponent"}, law == "cosine_ramp" ? 2 : law == "smoothstep" ? 1 : 0);
     return spot;
 }
 

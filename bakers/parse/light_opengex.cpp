@@ -1,13 +1,16 @@
 // Lights of an OpenGEX file (Lengyel, Open Game Engine Exchange 1.1.2, "LightObject" and "Atten"), over the
-// structures of OpenDDL. Distance curves: linear and smooth ramps from begin to end, inverse s / (kl d + kc
-// s) and inverse_square s^2 / (kq d^2 + kl s d + kc s^2) for a scale s.
+// structures of OpenDDL. Curves, of distance, angle or its cosine: linear and smooth ramps from begin to end,
+// inverse s / (kl x + kc s) and inverse_square s^2 / (kq x^2 + kl s x + kc s^2) for a scale s, at most 1;
+// by angle, to the power p. Defaults are those of Lengyel's importer (OpenGEX.cpp, AttenStructure).
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "bakers/parse/light_formats.hpp"
 #include "bakers/parse/scene_transform.hpp"
 #include "bakers/parse/text.hpp"
+#include "pbr/numerics/elementary.hpp"
 
 namespace pbrbake::parse {
 namespace {
@@ -269,46 +272,90 @@ class Reader {
         return light;
     }
 
-    void attenuate(const Structure& s, double angle, LegacyLight& light) {
-        const std::string kind = s.property("kind", "distance"), curve = s.property("curve", "linear");
-        double begin = 0, end = 1, scale = 1, power = 1, constant = 0, linear = curve == "inverse" ? 1 : 0,
-               quadratic = 1;
-        for (const Structure& param : s.children) {
-            const std::string name = param.property("attrib", "");
-            const std::pair<const char*, double*> known[] = {
-                {"begin", &begin},       {"end", &end},       {"scale", &scale},        {"power", &power},
-                {"constant", &constant}, {"linear", &linear}, {"quadratic", &quadratic}};
+    /// An "Atten" with its parameters, lengths and angles in the file's units.
+    struct Curve {
+        std::string kind, curve;
+        double begin = 0, end = 1, scale = 1, offset = 0, constant = 0, linear = 0, quadratic = 1, power = 1;
+    };
+
+    Curve curve_of(const Structure& s) const {
+        Curve c{s.property("kind", "distance"), s.property("curve", "linear")};
+        if (c.curve == "inverse") c.linear = 1;
+        const std::pair<const char*, double*> known[] = {
+            {"begin", &c.begin},       {"end", &c.end},
+            {"scale", &c.scale},       {"offset", &c.offset},
+            {"constant", &c.constant}, {"linear", &c.linear},
+            {"power", &c.power},       {"quadratic", &c.quadratic}};
+        for (const Structure& param : s.children)
             for (const auto& [word, target] : known)
-                if (name == word) *target = number_of_data(param, file_);
-            if (name == "offset" && number_of_data(param, file_) != 0)
-                light.diagnostics.push_back({Severity::warning, "offset", param.line,
-                                             "has an attenuation offset, which is left out"});
-        }
-        if (kind != "distance") {
-            light.diagnostics.push_back(
-                {Severity::note, "angle_curve", s.line, "fades by angle; taken as a ramp of the cosine"});
-            const double unit = kind == "angle" ? angle : 1;
-            light.spot = {curve == "smooth" ? pbr::SpotLaw::smoothstep : pbr::SpotLaw::cosine_ramp,
-                          begin * unit, end * unit, power};
-            return;
-        }
-        if (curve == "inverse" || curve == "inverse_square") {
-            if (!(scale > 0)) throw malformed(file_, s.line, "has an attenuation scale that isn't above 0");
-            light.falloff.constant = constant;
-            light.falloff.linear = linear / scale;
-            light.falloff.quadratic = curve == "inverse" ? 0 : quadratic / (scale * scale);
-            return;
-        }
-        if (curve != "linear" && curve != "smooth")
+                if (param.property("attrib", "") == word) *target = number_of_data(param, file_);
+        return c;
+    }
+
+    void attenuate(const Structure& s, double angle, LegacyLight& light) const {
+        const Curve curve = curve_of(s);
+        if (curve.kind == "distance")
+            fade_by_distance(curve, s.line, light);
+        else if (curve.kind == "angle" || curve.kind == "cos_angle")
+            fade_by_angle(curve, angle, s.line, light);
+        else
             throw malformed(file_, s.line,
-                            "found the curve " + parse::quoted(curve) +
+                            "found an attenuation of kind " + parse::quoted(curve.kind) +
+                                "; allowed: distance, angle, cos_angle");
+    }
+
+    static void tell(LegacyLight& light, Severity severity, const char* code, int line, const char* message) {
+        light.diagnostics.push_back({severity, code, line, message});
+    }
+
+    void fade_by_distance(const Curve& c, int line, LegacyLight& light) const {
+        if (c.curve == "inverse" || c.curve == "inverse_square") {
+            if (!(c.scale > 0)) throw malformed(file_, line, "has an attenuation scale that isn't above 0");
+            if (c.offset != 0)
+                tell(light, Severity::warning, "offset", line,
+                     "has an attenuation offset, which is left out");
+            light.falloff.constant = c.constant;
+            light.falloff.linear = c.linear / c.scale;
+            light.falloff.quadratic = c.curve == "inverse" ? 0 : c.quadratic / (c.scale * c.scale);
+            light.falloff.floor = 1;
+            return;
+        }
+        if (c.curve != "linear" && c.curve != "smooth")
+            throw malformed(file_, line,
+                            "found the curve " + parse::quoted(c.curve) +
                                 "; allowed: linear, smooth, inverse, inverse_square");
-        if (!(begin >= 0 && begin < end))
-            throw malformed(file_, s.line, "has an attenuation that doesn't begin before it ends");
-        light.falloff.window = curve == "smooth" ? pbr::FalloffWindow::smoothstep : pbr::FalloffWindow::ramp;
-        light.falloff.begin = begin;
-        light.falloff.range = end;
-        light.falloff.exponent = power;
+        if (c.begin < 0 || c.begin == c.end)
+            throw malformed(file_, line, "has an attenuation that begins below 0, or where it ends");
+        if (c.begin > c.end)
+            return tell(light, Severity::warning, "rises", line,
+                        "has an attenuation that grows with distance, which no light does; it is left out");
+        light.falloff.window =
+            c.curve == "smooth" ? pbr::FalloffWindow::smoothstep : pbr::FalloffWindow::ramp;
+        light.falloff.begin = c.begin;
+        light.falloff.range = c.end;
+    }
+
+    static void fade_by_angle(const Curve& c, double angle, int line, LegacyLight& light) {
+        if (c.curve != "linear" && c.curve != "smooth")
+            return tell(light, Severity::warning, "angle_curve_unknown", line,
+                        "fades by angle along a curve that is no ramp; it is left out");
+        const auto law = c.curve == "smooth" ? pbr::SpotLaw::smoothstep : pbr::SpotLaw::cosine_ramp;
+        if (c.kind == "angle") {
+            light.spot = {law, c.begin * angle, c.end * angle, c.power};
+            return tell(light, Severity::note, "angle_curve", line,
+                        "fades evenly over its angle; taken as fading over the cosine");
+        }
+        const auto angle_of = [](double cosine) {
+            const double bounded = std::clamp(cosine, -1., 1.);
+            return pbr::atan2_exact(std::sqrt((1 - bounded) * (1 + bounded)), bounded);
+        };
+        light.spot = {law, angle_of(c.begin), angle_of(c.end), c.power};
+        if (c.begin > c.end) return;
+        light.spot->law = pbr::SpotLaw::cosine_power;
+        tell(light, Severity::warning, "axis_dark", line,
+             "is dark on its axis, as Maya's exporter writes its drop-off; read as that power of the cosine, "
+             "within the "
+             "cone");
     }
 
     void walk(const Structure& s, const glm::dmat4& above) {

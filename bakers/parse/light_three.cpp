@@ -2,7 +2,7 @@
 // to white, and point lights faded as (1 - d / distance)^decay; from r155 on they are candela, lux and nit,
 // and fade as 1 / max(d^decay, .01) times a window (three.js lights_pars_begin.glsl.js before and after; the
 // migration note "Updates to lighting in three.js r155"). Files tell their format's version only: 4.6, which
-// came with r152, is read as physical, older ones as legacy.
+// came with r153, is read as physical, older ones as legacy.
 
 #include "bakers/parse/json_fields.hpp"
 #include "bakers/parse/light_formats.hpp"

@@ -59,6 +59,7 @@ Json figure_json(const Figure& figure) {
               {"method", figure.method}};
     if (figure.interval) json["interval"] = {figure.interval->first, figure.interval->second};
     if (figure.level) json["level"] = *figure.level;
+    if (!figure.curve.is_null()) json["curve"] = figure.curve;
     return json;
 }
 

@@ -23,8 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             parse::parse_lights({reinterpret_cast<const std::byte*>(data), size}, "fuzz");
         const light::LightParams params{};
         for (std::size_t i = 0; i < std::min(file.lights.size(), kMost); ++i) {
-            const light::ConvertedLight light =
-                light::convert(file.lights[i], file.up, {100, file.unit_m, 683, .1}, params);
+            const light::ConvertedLight light = light::convert(
+                file.lights[i], file.up, {100, file.unit_m, 683, .1}, params, light::Fits::made);
             expect(std::isfinite(light.illuminance_lx) && light.illuminance_lx >= 0);
             if (!light.fit) continue;
             expect(std::isfinite(light.fit->light.intensity) && light.fit->light.intensity >= 0);

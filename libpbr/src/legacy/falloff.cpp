@@ -39,9 +39,8 @@ double window_at(const Falloff& law, double distance) {
 
 double base_at(const Falloff& law, double distance) {
     if (law.power > 0) return 1 / std::max(power_exact(distance, law.power), law.floor);
-    const double sum = law.constant + distance * (law.linear + distance * law.quadratic);
     if (law.constant == 0 && law.linear == 0 && law.quadratic == 0) return 1;
-    return 1 / sum;
+    return 1 / std::max(law.constant + distance * (law.linear + distance * law.quadratic), law.floor);
 }
 
 }  // namespace
@@ -85,7 +84,10 @@ double falloff_reach(const Falloff& law, double share) {
     return high;
 }
 
-double spot_falloff_at(const SpotFalloff& law, double cosine) {
+namespace {
+
+/// The law without the cosine that weighs it.
+double cone_at(const SpotFalloff& law, double cosine) {
     const double outer = sin_cos_pi(law.outer_rad / std::numbers::pi).cos,
                  inner = sin_cos_pi(law.inner_rad / std::numbers::pi).cos;
     if (cosine < outer) return 0;
@@ -99,9 +101,16 @@ double spot_falloff_at(const SpotFalloff& law, double cosine) {
         case SpotLaw::cosine_ramp:
             return power_exact(ramp, law.exponent);
         case SpotLaw::smoothstep:
-            return smoothstep(ramp);
+            return power_exact(smoothstep(ramp), law.exponent);
     }
     return 1;
+}
+
+}  // namespace
+
+double spot_falloff_at(const SpotFalloff& law, double cosine) {
+    const double weight = law.axis_power > 0 ? power_exact(std::max(cosine, 0.), law.axis_power) : 1;
+    return weight * cone_at(law, cosine);
 }
 
 }  // namespace pbr

@@ -53,6 +53,7 @@ bool is_model(const Falloff& law, EmitterShape shape, LightWindow window) {
         law.window == FalloffWindow::quartic || law.window == FalloffWindow::quartic_squared;
     if (has_range(law) && !(is_windowed && own == window)) return false;
     if (law.power > 0) return law.power == 2 && law.floor == 0;
+    if (law.floor > law.constant) return false;
     if (law.linear != 0 || !(law.quadratic > 0)) return false;
     return shape == EmitterShape::disk || law.constant == 0;
 }
@@ -179,60 +180,72 @@ LightFit fit_light(const Falloff& law, double intensity, EmitterShape shape, Lig
     return {light, stops_between(light, law, intensity, span, 256), false};
 }
 
+namespace {
+
+/// Middles of equal parts of the cosine, from `lowest` to the axis, are equal parts of the solid angle.
+double cosine_of_part(double lowest, int i, int count) { return lowest + (1 - lowest) * ((i + .5) / count); }
+
+/// glTF's and Frostbite's spot, whose angles are given by their cosines.
+double square_ramp(double inner, double outer, double cosine) {
+    const double ramp = std::clamp((cosine - outer) / std::max(inner - outer, 1e-9), 0., 1.);
+    return ramp * ramp;
+}
+
+}  // namespace
+
+SpotError spot_difference(const SpotFalloff& law, double inner_rad, double outer_rad, int count) {
+    if (law.outer_rad <= 0) return {0, 0, 0};
+    const double lowest = sin_cos_pi(std::max(law.outer_rad, outer_rad) / kPi).cos;
+    const double inner = sin_cos_pi(inner_rad / kPi).cos, outer = sin_cos_pi(outer_rad / kPi).cos;
+    double squares = 0, largest = 0, flux = 0, legacy_flux = 0;
+    for (int i = 0; i < count; ++i) {
+        const double cosine = cosine_of_part(lowest, i, count);
+        const double wanted = spot_falloff_at(law, cosine), found = square_ramp(inner, outer, cosine);
+        squares += (found - wanted) * (found - wanted);
+        largest = std::max(largest, std::abs(found - wanted));
+        flux += found;
+        legacy_flux += wanted;
+    }
+    return {std::sqrt(squares / count), largest,
+            legacy_flux > 0 && flux > 0 ? log2_exact(flux / legacy_flux) : 0};
+}
+
 SpotFit fit_spot(const SpotFalloff& law) {
     constexpr double kWidest = kPi / 2;
     constexpr int kCount = 256;
-    if (law.outer_rad <= 0) return {0, 0, 0, 0, 0, true};
-    const double outer = std::min(law.outer_rad, kWidest);
+    if (law.outer_rad <= 0) return {0, 0, {0, 0, 0}, true};
+    const double widest = std::min(law.outer_rad, kWidest);
     const bool is_square = law.law == SpotLaw::cosine_ramp && law.exponent == 2;
     const bool is_edge = law.law == SpotLaw::hard || law.inner_rad >= law.outer_rad;
-    if (law.outer_rad <= kWidest && (is_square || (is_edge && law.law != SpotLaw::cosine_power)))
-        return {is_edge ? outer : law.inner_rad, outer, 0, 0, 0, true};
+    if (law.outer_rad <= kWidest && law.axis_power == 0 &&
+        (is_square || (is_edge && law.law != SpotLaw::cosine_power)))
+        return {is_edge ? widest : law.inner_rad, widest, {0, 0, 0}, true};
 
-    // Middles of equal parts of the cosine are equal parts of the solid angle.
     const double lowest = sin_cos_pi(law.outer_rad / kPi).cos;
-    std::vector<double> cosines, wanted;
-    double legacy_flux = 0;
-    for (int i = 0; i < kCount; ++i) {
-        cosines.push_back(lowest + (1 - lowest) * ((i + .5) / kCount));
-        wanted.push_back(spot_falloff_at(law, cosines.back()));
-        legacy_flux += wanted.back();
+    std::array<double, kCount> cosines, wanted;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        cosines[i] = cosine_of_part(lowest, static_cast<int>(i), kCount);
+        wanted[i] = spot_falloff_at(law, cosines[i]);
     }
-    const auto fitted = [&](double inner, double outer_cosine, double cosine) {
-        const double step = std::max(inner - outer_cosine, 1e-9);
-        const double ramp = std::clamp((cosine - outer_cosine) / step, 0., 1.);
-        return ramp * ramp;
-    };
-    const auto difference = [&](double inner, double outer_cosine) {
+    const auto difference = [&](double inner, double outer) {
         double squares = 0;
-        for (std::size_t i = 0; i < cosines.size(); ++i) {
-            const double value = fitted(inner, outer_cosine, cosines[i]) - wanted[i];
+        for (std::size_t i = 0; i < kCount; ++i) {
+            const double value = square_ramp(inner, outer, cosines[i]) - wanted[i];
             squares += value * value;
         }
-        return squares / kCount;
+        return squares;
     };
     // Parameters: the outer cosine, and where between it and the axis the inner one lies.
     const double first = std::max(lowest, 0.);
     const auto same = [](double value) { return value; };
     const auto best =
-        zoom({first, 0}, {1 - 1e-6 * (1 - first), 1}, same, same, [&](double outer_cosine, double share) {
-            return difference(outer_cosine + (1 - outer_cosine) * share, outer_cosine);
-        });
-    const double outer_cosine = best[0], inner = outer_cosine + (1 - outer_cosine) * best[1];
-    SpotFit fit{0, 0, std::sqrt(difference(inner, outer_cosine)), 0, 0, false};
-    double flux = 0;
-    for (std::size_t i = 0; i < cosines.size(); ++i) {
-        const double value = fitted(inner, outer_cosine, cosines[i]);
-        fit.max_share = std::max(fit.max_share, std::abs(value - wanted[i]));
-        flux += value;
-    }
-    fit.flux_stops = legacy_flux > 0 && flux > 0 ? log2_exact(flux / legacy_flux) : 0;
+        zoom({first, 0}, {1 - 1e-6 * (1 - first), 1}, same, same,
+             [&](double outer, double share) { return difference(outer + (1 - outer) * share, outer); });
     const auto angle_of = [](double cosine) {
         return atan2_exact(std::sqrt(std::max((1 - cosine) * (1 + cosine), 0.)), cosine);
     };
-    fit.inner_rad = angle_of(inner);
-    fit.outer_rad = angle_of(outer_cosine);
-    return fit;
+    const double inner_rad = angle_of(best[0] + (1 - best[0]) * best[1]), outer_rad = angle_of(best[0]);
+    return {inner_rad, outer_rad, spot_difference(law, inner_rad, outer_rad, kCount), false};
 }
 
 }  // namespace pbr

@@ -76,6 +76,70 @@ TEST(Light, CurveIsLawAndFitOverTheSpan) {
     }
 }
 
+const Figure* figure_of(const Baked& baked, const std::string& metric) {
+    for (const Figure& figure : baked.certificate.figures)
+        if (figure.metric == metric) return &figure;
+    return nullptr;
+}
+
+TEST(Light, CertificateCarriesTheCurveOfEachLawsWorstLight) {
+    const Baked baked = bake_text(R"({"lights": [
+        {"name": "near", "falloff": {"kind": "linear", "range": 3}}, {"falloff": "inverse"},
+        {"name": "far", "falloff": {"kind": "linear", "range": 300}}]})");
+    EXPECT_FALSE(figure_of(baked, "stops_rms.inverse")->curve.is_null());
+    EXPECT_FALSE(figure_of(baked, "gltf_stops_rms")->curve.is_null());
+    const Json& curve = figure_of(baked, "stops_rms.linear ramp")->curve;
+    EXPECT_EQ(curve["columns"], Json({"distance_m", "legacy_lx", "written_lx", "stops"}));
+    ASSERT_GE(curve["rows"].size(), 16u);
+    double squares = 0;
+    for (const Json& row : curve["rows"]) {
+        const double stops = std::log2(row[2].get<double>() / row[1].get<double>());
+        EXPECT_NEAR(row[3].get<double>(), stops, 1e-6);
+        squares += stops * stops;
+    }
+    EXPECT_GT(squares, 0);
+}
+
+TEST(Light, CertificateMeasuresTheDocumentsItIsGiven) {
+    // A product whose numbers were doubled after the bake is a stop off, and its cone no longer the law's.
+    const std::string text = R"({"lights": [{"type": "spot", "unit": "cd", "intensity": 5, "outer_deg": 30,
+        "falloff": "inverse_square"}]})";
+    const LightParams params = defaults();
+    const Inputs inputs = inputs_of(text, "lights.json");
+    Context context(1, {});
+    Product product = bake(params, inputs, context);
+    product.documents[0].json["lights"][0]["intensity_cd"] = 10;
+    product.documents[0].json["lights"][0]["spot"]["inner_half_angle_deg"] = 0;
+    Json& told = product.documents[1].json["extensions"]["KHR_lights_punctual"]["lights"][0];
+    told["intensity"] = told["intensity"].get<double>() / 4;
+    const Baked baked{product, certify(params, inputs, product, context)};
+    EXPECT_NEAR(baked.certificate.headline->value, 1, 1e-6);
+    EXPECT_NEAR(baked.figure("gltf_stops_rms"), 2, 1e-6);
+    EXPECT_GT(baked.figure("cone_rms"), .2);
+}
+
+TEST(Light, GltfAloneIsCertifiedAsGltf) {
+    LightParams params = defaults();
+    params.documents = {DocumentKind::gltf};
+    const Baked baked = bake_one(R"("falloff": {"kind": "linear", "range": 300})", params);
+    EXPECT_GT(baked.certificate.headline->value, 1);
+    EXPECT_EQ(baked.certificate.headline->value, baked.figure("gltf_stops_rms"));
+}
+
+TEST(Light, EachWarningIsGivenOnceAFile) {
+    std::string lights;
+    for (int i = 0; i < 40; ++i)
+        lights += std::string(i ? "," : "") + R"({"name": "l)" + std::to_string(i) +
+                  R"(", "unit": "cd", "intensity": 1e6})";
+    const Baked baked =
+        bake_text("{\"lights\": [" + lights + R"(, {"name": "hum", "falloff": "constant"}]})");
+    EXPECT_THAT(
+        baked.product.warnings,
+        testing::ElementsAre(testing::AllOf(testing::HasSubstr("\"l0\" "), testing::HasSubstr("65504"),
+                                            testing::HasSubstr("(39 other lights likewise)")),
+                             testing::HasSubstr("\"hum\" doesn't fade")));
+}
+
 TEST(Light, AnchorIsTheExposureUnderWhichOneIsWhite) {
     // Pixel value of white: exposure times E / pi, with exposure 1 / (1.2 2^EV).
     for (const double ev : {0., 8., 15.})

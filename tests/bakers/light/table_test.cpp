@@ -32,7 +32,7 @@ std::string vmf(const std::string& hard) {
 }
 
 std::string map(const std::string& keys) {
-    return "{\n\"classname\" \"light\"\n\"light\" \"128\"\n" + keys + "}\n";
+    return "{\n\"classname\" \"light\"\n\"light\" \"247.2727\"\n" + keys + "}\n";
 }
 
 std::string three(const std::string& fields, bool is_physical) {
@@ -103,25 +103,32 @@ TEST(LightTable, HoldsTheResidualOfEveryCone) {
     const std::string document = readme();
     const std::array<std::pair<const char*, const char*>, 8> rows{{
         {"hard; square ramp of the cosine (glTF, Frostbite)", R"("inner_deg": 20)"},
-        {"linear ramp of the cosine, 20° to 40° (Quake, Source)",
+        {"linear ramp of the cosine, 20° to 40° (Quake, OpenGEX)",
          R"("inner_deg": 20, "spot_law": "cosine_ramp", "spot_exponent": 1)"},
-        {"smoothstep of it (three.js)", R"("inner_deg": 20, "spot_law": "smoothstep")"},
+        {"smoothstep of it (three.js, Blender, OpenGEX)", R"("inner_deg": 20, "spot_law": "smoothstep")"},
         {"cos, in 90°", R"("outer_deg": 90, "spot_exponent": 1)"},
         {"cos⁸, in 90°", R"("outer_deg": 90, "spot_exponent": 8)"},
         {"cos¹²⁸, in 90°", R"("outer_deg": 90, "spot_exponent": 128)"},
         {"cos⁸, cut at 40°", R"("spot_exponent": 8)"},
         {"cos³², cut at 40°", R"("spot_exponent": 32)"},
     }};
-    for (const auto& [law, fields] : rows) {
-        const std::string outer =
-            std::string(fields).find("outer_deg") == std::string::npos ? "\"outer_deg\": 40, " : "";
-        const Baked baked = bake_one("\"type\": \"spot\", " + outer + fields);
+    const auto expect_row = [&](const std::string& law, const Baked& baked) {
         std::array<char, 32> share;
         std::snprintf(share.data(), share.size(), "%.1f %%",
                       100 * baked.light()["spot"]["rms_share_of_axis"].get<double>());
-        const std::string line = std::string("| ") + law + " | " + share.data() + " |\n";
+        const std::string line = "| " + law + " | " + share.data() + " |\n";
         EXPECT_NE(document.find(line), std::string::npos) << "the row should be\n" << line;
+    };
+    for (const auto& [law, fields] : rows) {
+        const bool has_outer = std::string(fields).find("outer_deg") != std::string::npos;
+        expect_row(law, bake_one(std::string("\"type\": \"spot\", ") +
+                                 (has_outer ? "" : "\"outer_deg\": 40, ") + fields));
     }
+    expect_row("the same times the cosine (Source)",
+               bake_text("entity\n{\n\"classname\" \"light_spot\"\n\"_light\" \"255 255 255 "
+                         "255\"\n\"_quadratic_attn\" \"1\"\n"
+                         "\"_inner_cone\" \"20\"\n\"_cone\" \"40\"\n\"pitch\" \"-90\"\n}\n",
+                         defaults(), "a.vmf"));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "tests/bakers/parse/fixtures.hpp"
 
@@ -28,129 +30,6 @@ std::string refusal(const std::string& text, const std::string& name) {
         return error.what();
     }
     return "";
-}
-
-const char* const kQuake = R"(// a map
-{
-"classname" "worldspawn"
-"_sunlight" "64"
-"_sun_mangle" "0 -90 0"
-{
-( 0 0 0 ) ( 1 0 0 ) ( 0 1 0 ) brick 0 0 0 1 1 // a brush
-}
-}
-{
-"classname" "light"
-"origin" "10 20 30"
-}
-{
-"classname" "light_torch"
-"light" "256"
-"delay" "2"
-"wait" "2"
-"_color" "255 128 0"
-}
-{
-"classname" "light"
-"delay" "5"
-"target" "floor"
-"angle" "60"
-"_softangle" "30"
-}
-{
-"classname" "info_null"
-"targetname" "floor"
-"origin" "0 0 -64"
-}
-)";
-
-TEST(QuakeLights, DefaultIsARampTo300Units) {
-    const LightFile file = read(kQuake, "a.map");
-    EXPECT_EQ(file.format, "Quake map");
-    ASSERT_EQ(file.lights.size(), 4u);
-    const LegacyLight& light = file.lights[1];
-    EXPECT_EQ(light.intensity, 300. / 128);
-    for (const double d : {0., 75., 299.})
-        EXPECT_NEAR(light.intensity * pbr::falloff_at(light.falloff, d) * 128, 300 - d, 1e-9);
-    EXPECT_EQ(pbr::falloff_at(light.falloff, 300), 0);
-    EXPECT_EQ(light.position, glm::dvec3(10, 20, 30));
-    EXPECT_EQ(light.line, 10);
-}
-
-TEST(QuakeLights, DelaysAreErics) {
-    const LightFile file = read(kQuake, "a.map");
-    // value = wait d; 2: light / (value/128)^2, 5: the same of value + 128.
-    const LegacyLight &square = file.lights[2], &soft = file.lights[3];
-    for (const double d : {1., 50., 700.}) {
-        EXPECT_NEAR(pbr::falloff_at(square.falloff, d) * std::pow(2 * d / 128, 2), 1, 1e-12);
-        EXPECT_NEAR(pbr::falloff_at(soft.falloff, d) * std::pow((d + 128) / 128, 2), 1, 1e-12);
-    }
-    EXPECT_NEAR(square.colour.y, 128 / 255., 1e-12);
-    ASSERT_TRUE(soft.spot);
-    EXPECT_NEAR(soft.spot->outer_rad, 30 * kDegree, 1e-12);
-    EXPECT_NEAR(soft.spot->inner_rad, 15 * kDegree, 1e-12);
-    EXPECT_EQ(soft.direction, glm::dvec3(0, 0, -64));
-}
-
-TEST(QuakeLights, SunIsAKeyOfTheWorld) {
-    const LegacyLight sun = read(kQuake, "a.map").lights[0];
-    EXPECT_EQ(sun.type, LightType::directional);
-    EXPECT_EQ(sun.intensity, .5);
-    EXPECT_NEAR(sun.direction.z, -1, 1e-12);
-}
-
-std::string vmf(const std::string& keys) {
-    return "versioninfo\n{\n\"editorversion\" \"400\"\n}\nentity\n{\n\"id\" \"7\"\n" + keys +
-           "\n\"origin\" \"1 2 3\"\neditor\n{\n\"color\" \"220 30 220\"\n}\n}\n";
-}
-
-TEST(SourceLights, BrightnessIsAtAHundredUnits) {
-    const LightFile file = read(
-        vmf("\"classname\" \"light\"\n\"_light\" \"255 255 255 200\"\n\"_quadratic_attn\" \"1\""), "a.vmf");
-    EXPECT_EQ(file.format, "Source map");
-    ASSERT_EQ(file.lights.size(), 1u);
-    const LegacyLight& light = file.lights[0];
-    EXPECT_NEAR(light.intensity * pbr::falloff_at(light.falloff, 100), 200. / 255, 1e-12);
-    EXPECT_NEAR(light.intensity * pbr::falloff_at(light.falloff, 200), 50. / 255, 1e-12);
-    EXPECT_EQ(light.encoding, ColourEncoding::gamma_2_2);
-    EXPECT_EQ(light.position, glm::dvec3(1, 2, 3));
-}
-
-TEST(SourceLights, HalfDistanceHasHalfTheLight) {
-    for (const char* zero : {"150", "400", "90"}) {  // 90 is before the half: twice that is taken
-        const LightFile file =
-            read(vmf(std::string("\"classname\" \"light\"\n\"_light\" \"255 255 255 255\"\n"
-                                 "\"_fifty_percent_distance\" \"100\"\n\"_zero_percent_distance\" \"") +
-                     zero + "\""),
-                 "a.vmf");
-        EXPECT_NEAR(pbr::falloff_at(file.lights[0].falloff, 100), .5, 1e-9) << zero;
-        EXPECT_EQ(has(file.lights[0].diagnostics, "zero_percent_distance"), zero == std::string("90"));
-    }
-}
-
-TEST(SourceLights, HardFalloffEndsAndSpotsHaveHalfAngles) {
-    const LightFile file = read(vmf("\"classname\" \"light_spot\"\n\"_light\" \"255 255 255 "
-                                    "255\"\n\"_fifty_percent_distance\" \"100\"\n"
-                                    "\"_zero_percent_distance\" \"400\"\n\"_hardfalloff\" "
-                                    "\"1\"\n\"_inner_cone\" \"20\"\n\"_cone\" \"45\"\n"
-                                    "\"pitch\" \"-90\""),
-                                "a.vmf");
-    const LegacyLight& light = file.lights[0];
-    EXPECT_GT(pbr::falloff_at(light.falloff, 324), 0);
-    EXPECT_EQ(pbr::falloff_at(light.falloff, 400), 0);
-    EXPECT_NEAR(light.spot->outer_rad, 45 * kDegree, 1e-12);
-    EXPECT_NEAR(light.direction.z, -1, 1e-12);
-}
-
-TEST(MapEntities, SayWhereTheyBreak) {
-    EXPECT_THAT(refusal("{\n\"classname\" \"light\"\n", "a.map"), HasSubstr("a.map:1: opens a brace"));
-    EXPECT_THAT(refusal("{\n\"classname\" \"light\n}", "a.map"), HasSubstr("a.map:2: has a quote"));
-    EXPECT_THAT(refusal("{\n\"classname\"\n}", "a.map"),
-                HasSubstr("where the value of 'classname' should be"));
-    EXPECT_THAT(refusal("}", "a.map"), HasSubstr("that none opened"));
-    EXPECT_THAT(refusal("{\n\"classname\" \"light\"\n\"light\" \"bright\"\n}", "a.map"),
-                HasSubstr("found 'bright' as 'light'"));
-    EXPECT_THAT(refusal(std::string(100, '{'), "a.map"), HasSubstr("deeper than 64"));
 }
 
 std::string collada(const std::string& light, const std::string& nodes, const std::string& asset = "") {
@@ -189,6 +68,46 @@ TEST(ColladaLights, SpotHasAFullAngleAndAnExponent) {
     const pbr::SpotFalloff& spot = *file.lights[0].spot;
     EXPECT_NEAR(spot.outer_rad, 30 * kDegree, 1e-12);
     EXPECT_NEAR(pbr::spot_falloff_at(spot, std::cos(.3)), std::pow(std::cos(.3), 4), 1e-12);
+}
+
+std::string blender(const std::string& version, const std::string& light, const std::string& extra = "") {
+    std::string text = collada(light, "",
+                               "<contributor><authoring_tool>Blender " + version +
+                                   " commit date:2015</authoring_tool></contributor>");
+    text.insert(text.find("</light>"),
+                "<extra><technique profile=\"blender\">" + extra + "</technique></extra>");
+    return text;
+}
+
+TEST(ColladaLights, BlendersConeIsItsBlend) {
+    const LegacyLight light = read(blender("2.74.0",
+                                           "<spot><color>1 1 1</color><falloff_angle>60</falloff_angle>"
+                                           "<falloff_exponent>0.25</falloff_exponent></spot>"),
+                                   "a.dae")
+                                  .lights.at(0);
+    EXPECT_EQ(light.spot->law, pbr::SpotLaw::smoothstep);
+    EXPECT_NEAR(light.spot->outer_rad, 30 * kDegree, 1e-12);
+    const double outer = std::cos(30 * kDegree);
+    EXPECT_NEAR(std::cos(light.spot->inner_rad), outer + .25 * (1 - outer), 1e-12);
+    EXPECT_EQ(light.unit, LightUnit::relative);
+}
+
+TEST(ColladaLights, BlendersLightsAreWattsSince280) {
+    const std::string point =
+        "<point><color>100 100 100</color><constant_attenuation>1</constant_attenuation>"
+        "<quadratic_attenuation>0.0006</quadratic_attenuation></point>";
+    for (const char* version : {"2.80.75", "2.93.4", "3.6", "4.1.1"}) {
+        const LegacyLight light = read(blender(version, point), "a.dae").lights.at(0);
+        EXPECT_EQ(light.unit, LightUnit::watt) << version;
+        EXPECT_NEAR(pbr::falloff_at(light.falloff, 3), 1. / 9, 1e-12);
+        EXPECT_TRUE(has(light.diagnostics, "blender_watts"));
+    }
+    EXPECT_EQ(read(blender("2.79.0", point), "a.dae").lights.at(0).unit, LightUnit::relative);
+    EXPECT_EQ(
+        read(blender("2.80", "<directional><color>3 3 3</color></directional>"), "a.dae").lights.at(0).unit,
+        LightUnit::watt_per_m2);
+    EXPECT_TRUE(has(read(blender("2.80", point, "<type>4</type>"), "a.dae").lights.at(0).diagnostics,
+                    "blender_area"));
 }
 
 TEST(ColladaLights, SayWhereTheyBreak) {
@@ -241,6 +160,77 @@ LightNode $node1 { Name {string {"Lamp"}} ObjectRef {ref {$light1}}
     EXPECT_EQ(file.lights[0].position, glm::dvec3(7, 8, 9));
     EXPECT_EQ(file.lights[0].intensity, 3);
     EXPECT_NEAR(pbr::falloff_at(file.lights[0].falloff, 60), 2500. / 3600 * .5, 1e-12);
+    EXPECT_EQ(pbr::falloff_at(file.lights[0].falloff, 10), 1);  // an inverse curve never rises above 1
+}
+
+LegacyLight opengex_light(const std::string& type, const std::string& curves) {
+    return read("LightObject (type = \"" + type + "\") {" + curves + "}", "a.ogex").lights.at(0);
+}
+
+std::string atten(const std::string& properties, const std::vector<std::pair<const char*, double>>& params) {
+    std::string text = "Atten (" + properties + ") {";
+    for (const auto& [name, value] : params)
+        text += std::string("Param (attrib = \"") + name + "\") {float {" + std::to_string(value) + "}}";
+    return text + "}";
+}
+
+TEST(OpenGexLights, InverseCurvesAreAsTheirParameters) {
+    const LegacyLight light = opengex_light(
+        "point", atten(R"(curve = "inverse")", {{"scale", 10}, {"constant", .5}, {"linear", 2}}));
+    for (const double d : {4., 30.})
+        EXPECT_NEAR(pbr::falloff_at(light.falloff, d), 10 / (2 * d + .5 * 10), 1e-12);
+    EXPECT_EQ(pbr::falloff_at(light.falloff, 1), 1);
+}
+
+TEST(OpenGexLights, CosineCurvesFadeBetweenCosines) {
+    // As 3ds Max's exporter writes a hotspot of 60 degrees in a cone of 90.
+    const LegacyLight light =
+        opengex_light("spot", atten(R"(kind = "cos_angle", curve = "smooth")",
+                                    {{"begin", std::cos(30 * kDegree)}, {"end", std::cos(45 * kDegree)}}));
+    EXPECT_NEAR(light.spot->inner_rad, 30 * kDegree, 1e-6);
+    EXPECT_NEAR(light.spot->outer_rad, 45 * kDegree, 1e-6);
+    EXPECT_EQ(light.spot->law, pbr::SpotLaw::smoothstep);
+    EXPECT_FALSE(has(light.diagnostics, "angle_curve"));
+}
+
+TEST(OpenGexLights, MayasDropOffIsAPowerOfTheCosine) {
+    // Its exporter begins at 0, which would be dark on the axis.
+    const LegacyLight light = opengex_light(
+        "spot", atten(R"(kind = "cos_angle", curve = "linear")", {{"begin", 0}, {"end", .5}, {"power", 3}}));
+    EXPECT_EQ(light.spot->law, pbr::SpotLaw::cosine_power);
+    EXPECT_NEAR(light.spot->outer_rad, 60 * kDegree, 1e-12);
+    EXPECT_EQ(light.spot->exponent, 3);
+    EXPECT_TRUE(has(light.diagnostics, "axis_dark"));
+}
+
+TEST(OpenGexLights, PowersAreOfAnglesAndAnglesOfTheMetric) {
+    const std::string cone = atten(R"(kind = "angle")", {{"begin", 10}, {"end", 40}, {"power", 2}});
+    const LegacyLight spot =
+        read("Metric (key = \"angle\") {float {0.017453292519943295}} LightObject (type = \"spot\") {" +
+                 cone + "}",
+             "a.ogex")
+            .lights.at(0);
+    EXPECT_NEAR(spot.spot->outer_rad, 40 * kDegree, 1e-12);
+    EXPECT_EQ(spot.spot->exponent, 2);
+    EXPECT_TRUE(has(spot.diagnostics, "angle_curve"));
+    const LegacyLight point = opengex_light("point", atten("", {{"end", 10}, {"power", 2}}));
+    EXPECT_NEAR(pbr::falloff_at(point.falloff, 5), .5, 1e-12);
+}
+
+TEST(OpenGexLights, WhatRisesWithDistanceIsLeftOut) {
+    // 3ds Max's near attenuation ends before it begins.
+    const LegacyLight light =
+        opengex_light("point", atten(R"(curve = "smooth")", {{"begin", 10}, {"end", 90}}) +
+                                   atten(R"(curve = "smooth")", {{"begin", 5}, {"end", 1}}));
+    EXPECT_TRUE(has(light.diagnostics, "rises"));
+    EXPECT_NEAR(pbr::falloff_at(light.falloff, 50), .5, 1e-12);
+    EXPECT_EQ(pbr::falloff_at(light.falloff, 3), 1);
+}
+
+TEST(OpenGexLights, OnlyRampsFadeByAngle) {
+    const LegacyLight light = opengex_light("spot", atten(R"(kind = "angle", curve = "inverse")", {}));
+    EXPECT_TRUE(has(light.diagnostics, "angle_curve_unknown"));
+    EXPECT_TRUE(has(light.diagnostics, "no_cone"));
 }
 
 TEST(OpenGexLights, SayWhereTheyBreak) {

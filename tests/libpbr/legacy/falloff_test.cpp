@@ -82,6 +82,14 @@ TEST(Falloff, PoleIsInfiniteAndPowerHasItsFloor) {
     EXPECT_NEAR(falloff_at(decay, 4), 1. / 8, 1e-15);
 }
 
+TEST(Falloff, FloorEndsTheGrowthOfASum) {
+    Falloff law{0, 0, .25};
+    law.floor = 1;
+    EXPECT_EQ(falloff_at(law, 0), 1);
+    EXPECT_EQ(falloff_at(law, 2), 1);
+    EXPECT_NEAR(falloff_at(law, 4), .25, 1e-15);
+}
+
 TEST(Falloff, ReachIsWhereTheShareIsLeft) {
     EXPECT_NEAR(falloff_reach(Falloff{1, 0, .01}, 1. / 256), std::sqrt(25500.), 1e-9);
     EXPECT_NEAR(falloff_reach(ramp(300), 1e-9), 300, 1e-6);
@@ -93,6 +101,23 @@ TEST(SpotFalloff, CosinePowerIsOpenGls) {
     EXPECT_EQ(spot_falloff_at(law, 1), 1);
     EXPECT_NEAR(spot_falloff_at(law, std::cos(.5)), std::pow(std::cos(.5), 8), 1e-14);
     EXPECT_EQ(spot_falloff_at(law, std::cos(46 * kDegree)), 0);
+}
+
+TEST(SpotFalloff, AxisPowerWeighsAnyLaw) {
+    for (const SpotLaw kind :
+         {SpotLaw::hard, SpotLaw::cosine_power, SpotLaw::cosine_ramp, SpotLaw::smoothstep}) {
+        SpotFalloff law{kind, .2, 2, 1.5};
+        const double plain = spot_falloff_at(law, .6);
+        law.axis_power = 1;
+        EXPECT_NEAR(spot_falloff_at(law, .6), .6 * plain, 1e-15);
+        EXPECT_EQ(spot_falloff_at(law, -.2), 0);
+    }
+}
+
+TEST(SpotFalloff, SmoothstepHasAnExponent) {
+    const SpotFalloff law{SpotLaw::smoothstep, 30 * kDegree, 60 * kDegree, 3};
+    const double t = (.7 - .5) / (std::cos(30 * kDegree) - .5), s = t * t * (3 - 2 * t);
+    EXPECT_NEAR(spot_falloff_at(law, .7), s * s * s, 1e-14);
 }
 
 TEST(SpotFalloff, ConesOfZeroAndOfAllDirectionsAreDefined) {

@@ -20,14 +20,14 @@ enum class FalloffWindow {
     quartic_squared,  ///< its square: Unreal Engine 4's, Frostbite's and three.js's
 };
 
-/// A law of distance: 1 / (constant + linear d + quadratic d^2), or 1 / max(d^power, floor) where `power` >
-/// 0, times a window. All coefficients >= 0 and finite; range in [0, +Inf], begin in [0, range).
+/// A law of distance: 1 / max(constant + linear d + quadratic d^2, floor), or 1 / max(d^power, floor) where
+/// `power` > 0, times a window. All coefficients >= 0 and finite; range in [0, +Inf], begin in [0, range).
 struct Falloff {
     double constant = 1;
     double linear = 0;
     double quadratic = 0;
     double power = 0;
-    double floor = 0;
+    double floor = 0;  ///< three.js's .01, which ends the pole; OpenGEX's 1, which ends the growth
     FalloffWindow window = FalloffWindow::none;
     double begin = 0;
     double range = std::numeric_limits<double>::infinity();
@@ -54,7 +54,7 @@ enum class SpotLaw {
     hard,          ///< 1 inside the outer cone
     cosine_power,  ///< cos(angle)^exponent inside the outer cone: OpenGL, Collada
     cosine_ramp,   ///< ((cos a - cos outer) / (cos inner - cos outer))^exponent: Source; 2 is glTF's
-    smoothstep,    ///< 3 t^2 - 2 t^3 of that ramp in cosines: three.js
+    smoothstep,    ///< (3 t^2 - 2 t^3)^exponent of that ramp in cosines: three.js, Blender, OpenGEX
 };
 
 /// A law of angle. Half-angles in rad, 0 <= inner <= outer <= pi.
@@ -62,11 +62,13 @@ struct SpotFalloff {
     SpotLaw law = SpotLaw::hard;
     double inner_rad = 0;
     double outer_rad = 0;
-    double exponent = 1;  ///< of cosine_power and cosine_ramp, >= 0
+    double exponent = 1;    ///< of all but hard, >= 0
+    double axis_power = 0;  ///< the whole is weighed by max(cos(angle), 0)^axis_power: 1 in Source
 };
 
 /// Share of the intensity on the axis left at an angle whose cosine is given, in [-1, 1]. 0 outside the outer
-/// cone; inner = outer is a hard edge. cosine_power is 0 where the cosine is negative, unless its exponent is 0. Error 1e-14.
+/// cone; inner = outer is a hard edge. cosine_power is 0 where the cosine is negative, unless its exponent
+/// is 0; so is what axis_power weighs. Error 1e-14.
 double spot_falloff_at(const SpotFalloff& law, double cosine);
 
 /// x^p of x >= 0 with bits that no CPU changes; p in [0, 1e4]. 0^0 is 1. Relative error 1e-13 for x in

@@ -77,21 +77,30 @@ struct LightFit {
 LightFit fit_light(const Falloff& law, double intensity, EmitterShape shape, LightWindow window,
                    const DistanceSpan& span);
 
-/// A spot of physical lights: glTF's and Frostbite's sat((cos a - cos outer) / (cos inner - cos outer))^2,
-/// fitted to a law of angle, intensity on the axis kept.
-struct SpotFit {
-    double inner_rad;
-    double outer_rad;   ///< at most pi / 2, as in glTF
+/// How far two spots of the same intensity on the axis are apart.
+struct SpotError {
     double rms_share;   ///< of the difference over the sphere of directions within the wider cone
     double max_share;   ///< of the intensity on the axis
     double flux_stops;  ///< log2 of fitted over legacy flux
+};
+
+/// The spot of physical lights, glTF's and Frostbite's sat((cos a - cos outer) / (cos inner - cos outer))^2,
+/// against a law of angle, at `count` directions in the middles of equal solid angles. inner <= outer in rad,
+/// in [0, pi]. All 0 for a law whose outer angle is 0.
+SpotError spot_difference(const SpotFalloff& law, double inner_rad, double outer_rad, int count);
+
+/// That spot, fitted to a law of angle, intensity on the axis kept.
+struct SpotFit {
+    double inner_rad;
+    double outer_rad;  ///< at most pi / 2, as in glTF
+    SpotError error;
     bool is_exact;
 };
 
-/// The nearest spot by least squares over solid angle. An outer angle of 0 gives a cone of 0 and flux_stops
-/// 0. Error: cones are found to 1e-6 rad; rms_share is below .05 for cosine_power from exponent 2 up, .12 at
-/// 1, .17 at .15, where a hard rim at pi / 2 is asked of a square. cosine_ramp with exponent 2 and up to pi /
-/// 2 is exact.
+/// The nearest spot by least squares over solid angle. An outer angle of 0 gives a cone of 0 and no error.
+/// Error: cones are found to 1e-6 rad; rms_share is below .05 for cosine_power from exponent 2 up, .12 at 1,
+/// .17 at .15, where a hard rim at pi / 2 is asked of a square. cosine_ramp with exponent 2, no axis_power
+/// and up to pi / 2 is exact.
 SpotFit fit_spot(const SpotFalloff& law);
 
 }  // namespace pbr
