@@ -117,6 +117,7 @@ class BakeRun {
             warn_of(source, image);
             inputs_.emplace(source.read.field, std::move(image));
         }
+        warn_of_assumptions();
         if (!bake_.baker->follow) return;
         for (const Read& read : bake_.baker->follow(inputs_)) follow(read);
     }
@@ -162,9 +163,16 @@ class BakeRun {
             report_.warnings.push_back(path + ": " + std::to_string(repairs.negative) +
                                        " texels were negative (lowest " + number_text(repairs.lowest) +
                                        "); they became 0");
-        if (image.colour_space_assumed)
-            report_.warnings.push_back(path + ": does not tell its colour space; taken as " +
-                                       image.colour_space + " (state it with colour_space)");
+        if (image.colour_space_assumed) assumed_[image.colour_space].push_back(path);
+    }
+
+    void warn_of_assumptions() {
+        for (const auto& [colour_space, paths] : assumed_)
+            report_.warnings.push_back(paths.front() +
+                                       (paths.size() == 1 ? ": does not tell its colour space"
+                                                          : " and " + std::to_string(paths.size() - 1) +
+                                                                " more: do not tell their colour space") +
+                                       "; taken as " + colour_space + " (state it with colour_space)");
     }
 
     void bake() {
@@ -264,6 +272,8 @@ class BakeRun {
     const Options& options_;
     BakeReport report_;
     std::vector<job::Source> sources_;  ///< the bake's, and those that its files name
+    std::map<std::string, std::vector<std::string>>
+        assumed_;  ///< sources by the colour space they are taken for
     Inputs inputs_;
     Product product_;
     Certificate certificate_;
