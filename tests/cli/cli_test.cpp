@@ -264,6 +264,8 @@ TEST(Inspect, ShowsLevelsAndCertificate) {
     }
     const Outcome cube = run_program({"inspect", "--json", folder / "out/sky.ktx2"});
     ASSERT_EQ(cube.code, 0) << cube.err;
+    expect_valid("inspection", cube.out);
+    expect_valid("inspection", run_program({"inspect", "--json", folder / "out/lut.exr"}).out);
     const Json document = job::parse_json(cube.out, "inspect");
     EXPECT_EQ(document["faces"], 6);
     EXPECT_EQ(document["record"]["name"], "sky");
