@@ -167,12 +167,13 @@ class BakeRun {
     }
 
     void warn_of_assumptions() {
-        for (const auto& [colour_space, paths] : assumed_)
-            report_.warnings.push_back(paths.front() +
-                                       (paths.size() == 1 ? ": does not tell its colour space"
-                                                          : " and " + std::to_string(paths.size() - 1) +
-                                                                " more: do not tell their colour space") +
-                                       "; taken as " + colour_space + " (state it with colour_space)");
+        for (const auto& [colour_space, paths] : assumed_) {
+            const std::size_t others = paths.size() - 1;
+            std::string text = paths.front();
+            if (others > 0) text += " and " + (others == 1 ? paths[1] : std::to_string(others) + " more");
+            text += others > 0 ? ": do not tell their colour space" : ": does not tell its colour space";
+            report_.warnings.push_back(text + "; taken as " + colour_space + " (state it with colour_space)");
+        }
     }
 
     void bake() {
