@@ -210,8 +210,8 @@ class BakeRun {
             for (Level& level : image.levels) level.texels = {};
         }
         // A product without images is the document of its format; the main file comes first.
-        std::ranges::stable_partition(product_.documents,
-                                      [&](const Document& document) { return is_main(document.suffix); });
+        std::stable_partition(product_.documents.begin(), product_.documents.end(),
+                              [&](const Document& document) { return is_main(document.suffix); });
         for (const Document& document : product_.documents) add_document(document);
     }
 

@@ -52,8 +52,7 @@ std::vector<std::size_t> with_neighbours(const std::vector<BrightTexel>& texels,
             }
     }
     std::ranges::sort(indices);
-    const auto repeated = std::ranges::unique(indices);
-    indices.erase(repeated.begin(), repeated.end());
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
     return indices;
 }
 
