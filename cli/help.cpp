@@ -30,7 +30,7 @@ std::string spelling(const Option& option) {
     if (option.name.find(',') == 1)
         text += std::string("-") + option.name[0] + ", --" + option.name.substr(2);
     else if (!option.name.empty())
-        text += "--" + option.name;
+        text += (option.is_on ? "--[no-]" : "--") + option.name;
     if (!option.value.empty()) text += (option.name.empty() ? "" : " ") + option.value;
     return text;
 }

@@ -44,12 +44,14 @@ void print_ranges(const std::vector<verify::RangeCheck>& ranges) {
     }
 }
 
-void print_figure(const char* title, const Json& figure) {
-    std::printf("%-12s%s %.3g (%s)", title, figure["metric"].get<std::string>().c_str(),
+void print_figure(const Json& figure) {
+    const bool has_level = figure.contains("level"), has_interval = figure.contains("interval");
+    std::printf("%-30s %9.3g  %-8s", figure["metric"].get<std::string>().c_str(),
                 figure["value"].get<double>(), figure["evidence"].get<std::string>().c_str());
-    if (figure.contains("level")) std::printf(", level %d", figure["level"].get<int>());
-    if (figure.contains("interval"))
-        std::printf(", 95 %% within %.3g to %.3g", figure["interval"][0].get<double>(),
+    if (has_level || has_interval)
+        std::printf(" %6s", has_level ? std::to_string(figure["level"].get<int>()).c_str() : "");
+    if (has_interval)
+        std::printf("  %.3g to %.3g", figure["interval"][0].get<double>(),
                     figure["interval"][1].get<double>());
     std::printf("\n");
 }
@@ -62,11 +64,14 @@ void print_certificate(const Json& record) {
     try {
         const Json& certificate = record["certificate"];
         const Json headline = certificate.value("headline", Json());
-        if (!headline.is_null()) print_figure("headline", headline);
+        std::printf("%-30s %9s  %-8s %6s  95 %% within\n", "certificate, headline first", "value", "evidence",
+                    "level");
+        if (!headline.is_null()) print_figure(headline);
         for (const Json& figure : certificate.at("figures"))
-            if (figure != headline) print_figure("", figure);
+            if (figure != headline) print_figure(figure);
+        std::printf("\n");
         for (const auto& [effect, count] : certificate.at("work").items())
-            std::printf("%-12s%s %llu\n", "work", effect.c_str(),
+            std::printf("evaluations of %-20s %20llu\n", effect.c_str(),
                         static_cast<unsigned long long>(count.get<std::uint64_t>()));
     } catch (const Json::exception&) {
         std::printf("certificate unreadable: the record is not one of this version\n");

@@ -18,12 +18,14 @@ ExitCode one_shot_command(const std::string& kind, const Arguments& arguments) {
             required.push_back({flag.name, flag.place, flag.help});
             usage += required.back().value + " ";
         } else {
-            bake.options.push_back({flag.name, flag.value, flag.help, flag.is_switch});
+            bake.options.push_back(
+                {flag.name, flag.value, flag.help, flag.is_switch, false, flag.on_by_default});
         }
     Options options(kind, usage + "-o FILE", job::title_of(kind) + ".");
     options.add_positional(required);
     options.add(bake);
     options.add(run_option_group());
+    options.set_example(job::example_of(kind));
     const auto given = options.parse(arguments);
     if (!given) return ExitCode::done;
 

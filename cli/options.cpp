@@ -12,11 +12,14 @@ namespace {
 
 std::string long_name(const std::string& name) { return name.substr(name.find(',') == 1 ? 2 : 0); }
 
-/// "--rotate_deg=30" -> "--rotate-deg=30"
-std::string with_hyphens(std::string argument) {
-    if (argument.starts_with("--"))
-        std::replace(argument.begin(), argument.begin() + std::min(argument.find('='), argument.size()), '_',
-                     '-');
+/// "--rotate_deg=30" -> "--rotate-deg=30"; "--no-fold" -> "--fold=false", if fold is a switch.
+std::string as_parsed(std::string argument, const std::vector<Option>& options) {
+    if (!argument.starts_with("--")) return argument;
+    std::replace(argument.begin(), argument.begin() + std::min(argument.find('='), argument.size()), '_',
+                 '-');
+    for (const Option& option : options)
+        if (option.is_switch && argument == "--no-" + long_name(option.name))
+            return "--" + long_name(option.name) + "=false";
     return argument;
 }
 
@@ -67,7 +70,7 @@ std::optional<Given> Options::parse(const Arguments& arguments) const {
     parser.parse_positional(positional_names);
 
     std::vector<std::string> texts{command_};
-    for (const std::string& argument : arguments) texts.push_back(with_hyphens(argument));
+    for (const std::string& argument : arguments) texts.push_back(as_parsed(argument, all_options()));
     std::vector<const char*> argv;
     for (const std::string& text : texts) argv.push_back(text.c_str());
     try {
@@ -115,6 +118,7 @@ void Options::print_help() const {
         groups.front().options.push_back({"", option.value, option.help});
     groups.insert(groups.end(), groups_.begin(), groups_.end());
     std::printf("%s", help_text("pbrbake " + command_ + " " + usage_, summary_, groups).c_str());
+    if (!example_.empty()) std::printf("\nexample:\n  %s\n", example_.c_str());
 }
 
 int integer_option(const std::string& name, const std::string& text, int least, int most) {

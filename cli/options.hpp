@@ -16,6 +16,7 @@ struct Option {
     std::string help;
     bool is_switch = false;  ///< "true" if it is given without =value
     bool repeats = false;    ///< may be given several times
+    bool is_on = false;      ///< of a switch: "false" is what one would give, as --no-name
 };
 
 /// What was given, in order.
@@ -45,12 +46,15 @@ std::string help_text(const std::string& usage, const std::string& summary,
                       const std::vector<OptionGroup>& groups);
 
 /// The options of one command. Words may be joined by _ as well as by -: a flag is called as in the job file.
+/// A switch X is off with --no-X, or --X=false.
 class Options {
   public:
     /// `usage` is what follows the command's name: "[OPTIONS] JOB...".
     Options(std::string command, std::string usage, std::string summary)
         : command_(std::move(command)), usage_(std::move(usage)), summary_(std::move(summary)) {}
 
+    /// A command line for the end of the help.
+    void set_example(std::string example) { example_ = std::move(example); }
     void add(OptionGroup group) { groups_.push_back(std::move(group)); }
     /// Options that may be given without their names, in this order; one that repeats takes all that is left.
     void add_positional(std::vector<Option> options) { positionals_ = std::move(options); }
@@ -63,7 +67,7 @@ class Options {
     void check(const Given& given, const std::vector<std::string>& unmatched) const;
     void print_help() const;
 
-    std::string command_, usage_, summary_;
+    std::string command_, usage_, summary_, example_;
     std::vector<OptionGroup> groups_;
     std::vector<Option> positionals_;
 };

@@ -61,10 +61,10 @@ void Progress::clear() {
 void Progress::finished(const run::BakeReport& report) {
     clear();
     const char* name = report.bake->name.c_str();
-    if (!quiet_)
+    if (!report.error.empty()) std::fprintf(stderr, "pbrbake: error: %s: %s\n", name, report.error.c_str());
+    if (!quiet_ && report.status != run::Status::failed)  // warnings are of a product
         for (const std::string& warning : report.warnings)
             std::fprintf(stderr, "pbrbake: warning: %s: %s\n", name, warning.c_str());
-    if (!report.error.empty()) std::fprintf(stderr, "pbrbake: error: %s: %s\n", name, report.error.c_str());
     if (!quiet_ && !report.entry.is_null() && !report.writes.empty())
         std::fprintf(stderr, "%s  %s  %.2f s%s\n", name, report.writes.front().c_str(), seconds(),
                      headline_text(report).c_str());

@@ -24,7 +24,7 @@ enum class Term {
     subsurface,
     ggx_anisotropic
 };
-enum class Disney { automatic, renormalised, original, original_minus_half };
+enum class Disney { automatic, renormalised, original, unity };
 enum class Cloth { automatic, charlie, neubelt };
 enum class Axis { automatic, nov, sqrt_nov, cbrt_nov };
 enum class RoughnessAxis { automatic, perceptual, sqrt_perceptual, alpha };
@@ -87,8 +87,7 @@ struct EnumNames<dfg::Term> {
 };
 template <>
 struct EnumNames<dfg::Disney> {
-    static constexpr std::array<std::string_view, 4> names{"auto", "renormalised", "original",
-                                                           "original_minus_half"};
+    static constexpr std::array<std::string_view, 4> names{"auto", "renormalised", "original", "unity"};
 };
 template <>
 struct EnumNames<dfg::Cloth> {

@@ -35,7 +35,7 @@ const TargetLayout& layout_of(Target target) {
          Align::ends,
          Form::mix,
          false,
-         Disney::original_minus_half,
+         Disney::unity,
          Cloth::charlie},
         // unreal
         {128, 32, {ggx}, Axis::nov, Align::center, Form::scale_bias, false, Disney::original, Cloth::charlie},

@@ -46,11 +46,12 @@ Columns ggx_anisotropic(Row& row) { return in_form(row.params().form, row.ggx_an
 
 Columns disney_diffuse(Row& row) {
     constexpr std::uint64_t kGaussPoints = 5;  // of the closed form
+    constexpr double kUnitysScale = 1.03571;   // BSDF.hlsl: the largest albedo at normal view
     const Disney disney = row.params().disney;
     return {row.each("disney_diffuse", kGaussPoints, [&](double NoV) {
         if (disney == Disney::renormalised) return pbr::albedo_disney_diffuse(NoV, row.down());
         const double albedo = pbr::albedo_disney_diffuse_original(NoV, row.down());
-        return disney == Disney::original ? albedo : albedo - 0.5;
+        return disney == Disney::original ? albedo : albedo / kUnitysScale - 0.5;
     })};
 }
 

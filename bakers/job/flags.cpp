@@ -48,13 +48,15 @@ std::string placeholder(const Json& reference) {
     }
     if (is_type(node, "array")) {
         const std::string item = placeholder(node["items"]);
-        return node.value("maxItems", 0) == 2 ? item + "," + item : item + ",...";
+        const int least = node.value("minItems", 0);
+        if (least == 0 || least != node.value("maxItems", 0)) return item + ",...";
+        return joined(std::vector(static_cast<std::size_t>(least), item), ",");
     }
     if (is_type(node, "object")) return placeholder(node["properties"].front());
     return is_type(node, "integer")   ? "N"
            : is_type(node, "number")  ? "X"
            : is_type(node, "boolean") ? ""
-                                      : "TEXT";
+                                      : "FILE";
 }
 
 /// A default as a user would type it.
@@ -64,6 +66,21 @@ std::string flag_text(const Json& value) {
     std::vector<std::string> elements;
     for (const Json& element : value) elements.push_back(flag_text(element));
     return joined(elements, ",");
+}
+
+/// What a flag may be and is by default. Lists are typed without quotes or brackets.
+std::string facts_of(const Flag& flag, const Json& property, const Json* fallback) {
+    const bool shown_by_value =
+        flag.value.find('|') != std::string::npos && flag.value.find('N') == std::string::npos;
+    std::string facts =
+        shown_by_value || flag.is_switch || flag.value == "FILE" ? "" : job_schema().describe(property);
+    std::erase(facts, '"');
+    for (const std::string_view words : {"an array of ", ", no two alike"})
+        if (const auto at = facts.find(words); at != std::string::npos) facts.erase(at, words.size());
+    const bool off = flag.is_switch && fallback && !fallback->get<bool>();
+    const std::string text = fallback && !off ? flag_text(*fallback) : "";
+    if (!text.empty()) facts += (facts.empty() ? "default: " : "; default: ") + text;
+    return facts;
 }
 
 std::string upper_case(std::string text) {
@@ -87,11 +104,8 @@ Flag make_flag(const std::string& property_name, const Json& property, std::stri
     const Json& around = schema.root()["properties"];
     if (!fallback && around.contains(property_name))
         fallback = schema.keyword(around[property_name], "default");
-    std::string facts = flag.value.find('|') == std::string::npos || flag.value.find('N') != std::string::npos
-                            ? schema.describe(property)
-                            : "";
-    if (flag.is_switch || flag.value == "TEXT") facts.clear();
-    if (fallback) facts += (facts.empty() ? "default: " : "; default: ") + flag_text(*fallback);
+    flag.on_by_default = flag.is_switch && fallback && fallback->get<bool>();
+    const std::string facts = facts_of(flag, property, fallback);
     if (!facts.empty()) flag.help += " [" + facts + "]";
     return flag;
 }
@@ -102,7 +116,7 @@ Flag make_flag(const std::string& property_name, const Json& property, std::stri
 template <class Number>
 std::optional<Json> parse_number(std::string_view text) {
     Number number{};
-    if (text.starts_with('+')) text.remove_prefix(1);
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
     if (!std::isfinite(static_cast<double>(number))) return std::nullopt;  // JSON has no NaN
@@ -111,9 +125,10 @@ std::optional<Json> parse_number(std::string_view text) {
 
 std::optional<Json> convert(const std::string& text, const Json& reference);
 
-/// "a,b,c"; pairs of numbers may be written 128x64 as well.
+/// "a,b,c"; numbers may be written 128x64 as well, but 0x80 is none.
 std::optional<Json> convert_array(const std::string& text, const Json& node) {
     const bool numbers = !job_schema().resolve(node["items"]).contains("enum");
+    if (numbers && (text.starts_with("0x") || text.starts_with("0X"))) return std::nullopt;
     Json array = Json::array();
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find_first_of(numbers ? ",x" : ",", begin), text.size());
@@ -128,7 +143,7 @@ std::optional<Json> convert_array(const std::string& text, const Json& node) {
 
 /// The JSON that a text stands for, or nothing if the node's type can't be written that way. Ranges and names
 /// are for the schema to judge. An object of one required property is written as that property's value, and
-/// another's after a colon: `--accuracy 0.001`, `--accuracy 0.001:sampled`.
+/// the other's, a word, after a colon: `--accuracy 0.001`, `--accuracy 0.001:sampled`.
 std::optional<Json> convert(const std::string& text, const Json& reference) {
     const Json& node = job_schema().resolve(reference);
     if (node.contains("enum")) {
@@ -156,9 +171,7 @@ std::optional<Json> convert(const std::string& text, const Json& reference) {
         if (!value) return std::nullopt;
         if (colon == std::string::npos) return Json{{member, *value}};
         for (const auto& [name, property] : node["properties"].items())
-            if (name != member)
-                if (const auto other = convert(text.substr(colon + 1), property))
-                    return Json{{member, *value}, {name, *other}};
+            if (name != member) return Json{{member, *value}, {name, text.substr(colon + 1)}};
         return std::nullopt;
     }
     return Json(text);
@@ -212,6 +225,24 @@ std::vector<Flag> flags_of(std::string_view kind) {
     for (const auto& [name, property] : around["limits"]["properties"].items())
         flags.push_back(make_flag(name, property, "/limits/" + name));
     return flags;
+}
+
+std::string example_of(std::string_view kind) {
+    const Json& example = definition(kind)["examples"].front();
+    std::string sources, flags;
+    for (const Flag& flag : flags_of(kind)) {
+        const std::string property = flag.pointer.substr(flag.pointer.rfind('/') + 1);
+        if (property == "format" || !example.contains(property)) continue;
+        const std::string text = flag_text(example[property]);
+        if (flag.is_required)
+            sources += " " + text;
+        else
+            flags += " --" + flag.name + (flag.is_switch ? "" : " " + text);
+    }
+    const auto format =
+        example.value("format", *job_schema().keyword(definition(kind)["properties"]["format"], "default"));
+    return "pbrbake " + std::string(kind) + sources + flags + " -o " + example["name"].get<std::string>() +
+           "." + format.get<std::string>();
 }
 
 std::string title_of(std::string_view kind) { return definition(kind)["title"].get<std::string>(); }

@@ -31,11 +31,16 @@ std::vector<std::string> keys_of(const Json& object) {
     return keys;
 }
 
-std::vector<std::string> strings_of(const Json& array) {
-    std::vector<std::string> strings;
-    for (const Json& element : array)
-        if (element.is_string()) strings.push_back(element.get<std::string>());
-    return strings;
+/// The names that a node allows, itself or in a branch.
+std::vector<std::string> names_of(const Json& node) {
+    std::vector<std::string> names;
+    if (node.contains("enum"))
+        for (const Json& name : node["enum"])
+            if (name.is_string()) names.push_back(name.get<std::string>());
+    if (node.contains("anyOf"))
+        for (const Json& branch : node["anyOf"])
+            for (std::string& name : names_of(branch)) names.push_back(std::move(name));
+    return names;
 }
 
 bool has_type(const Json& node, const char* type) {
@@ -169,9 +174,8 @@ std::string Schema::describe(const Json& reference) const {
 }
 
 std::string Schema::refusal(const Json& value, const Json& node) const {
-    std::string hint;
-    if (value.is_string() && resolve(node).contains("enum"))
-        hint = did_you_mean(value.get_ref<const std::string&>(), strings_of(resolve(node)["enum"]));
+    const std::string hint =
+        value.is_string() ? did_you_mean(value.get_ref<const std::string&>(), names_of(resolve(node))) : "";
     return "found " + shown(value) + "; allowed: " + describe(node) + hint;
 }
 

@@ -117,6 +117,7 @@ class BakeRun {
             warn_of(source, image);
             inputs_.emplace(source.read.field, std::move(image));
         }
+        warn_of_assumptions();
         if (!bake_.baker->follow) return;
         for (const Read& read : bake_.baker->follow(inputs_)) follow(read);
     }
@@ -162,9 +163,17 @@ class BakeRun {
             report_.warnings.push_back(path + ": " + std::to_string(repairs.negative) +
                                        " texels were negative (lowest " + number_text(repairs.lowest) +
                                        "); they became 0");
-        if (image.colour_space_assumed)
-            report_.warnings.push_back(path + ": does not tell its colour space; taken as " +
-                                       image.colour_space + " (state it with colour_space)");
+        if (image.colour_space_assumed) assumed_[image.colour_space].push_back(path);
+    }
+
+    void warn_of_assumptions() {
+        for (const auto& [colour_space, paths] : assumed_) {
+            const std::size_t others = paths.size() - 1;
+            std::string text = paths.front();
+            if (others > 0) text += " and " + (others == 1 ? paths[1] : std::to_string(others) + " more");
+            text += others > 0 ? ": do not tell their colour space" : ": does not tell its colour space";
+            report_.warnings.push_back(text + "; taken as " + colour_space + " (state it with colour_space)");
+        }
     }
 
     void bake() {
@@ -201,8 +210,8 @@ class BakeRun {
             for (Level& level : image.levels) level.texels = {};
         }
         // A product without images is the document of its format; the main file comes first.
-        std::ranges::stable_partition(product_.documents,
-                                      [&](const Document& document) { return is_main(document.suffix); });
+        std::stable_partition(product_.documents.begin(), product_.documents.end(),
+                              [&](const Document& document) { return is_main(document.suffix); });
         for (const Document& document : product_.documents) add_document(document);
     }
 
@@ -264,6 +273,8 @@ class BakeRun {
     const Options& options_;
     BakeReport report_;
     std::vector<job::Source> sources_;  ///< the bake's, and those that its files name
+    std::map<std::string, std::vector<std::string>>
+        assumed_;  ///< sources by the colour space they are taken for
     Inputs inputs_;
     Product product_;
     Certificate certificate_;

@@ -77,8 +77,13 @@ Json inspection_json(const Inspection& inspection) {
         levels.push_back(
             {{"width", level.width}, {"height", level.height}, {"channels", std::move(channels)}});
     }
-    Json json{{"format", inspection.format}, {"pixel", inspection.pixel}, {inspection.is_volume ? "depth" : "faces", inspection.faces},
-              {"scale", inspection.scale},   {"units", inspection.units}, {"levels", std::move(levels)}};
+    Json json{{"version", 1},
+              {"format", inspection.format},
+              {"pixel", inspection.pixel},
+              {inspection.is_volume ? "depth" : "faces", inspection.faces},
+              {"scale", inspection.scale},
+              {"units", inspection.units},
+              {"levels", std::move(levels)}};
     for (const RangeCheck& check : inspection.ranges)
         json["ranges"].push_back({{"what", check.what},
                                   {"lowest", check.lowest},

@@ -41,7 +41,7 @@ struct Inspection {
 /// Reads a product and its record. Throws Error(unreadable_input).
 Inspection inspect(const std::filesystem::path& file);
 
-/// The same as a document.
+/// The same as a document of schemas/inspection.schema.json.
 Json inspection_json(const Inspection& inspection);
 
 }  // namespace pbrbake::verify

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "bakers/job/json_text.hpp"
 #include "bakers/job/schema.hpp"
 #include "tests/cli/program.hpp"
@@ -254,8 +256,16 @@ TEST(Inspect, ShowsLevelsAndCertificate) {
     EXPECT_EQ(table.code, 0) << table.err;
     EXPECT_THAT(table.out, HasSubstr("32x16"));
     EXPECT_THAT(table.out, HasSubstr("headline"));
+    for (const char* product : {"out/lut.exr", "out/sky.ktx2"}) {
+        std::istringstream lines(run_program({"inspect", folder / product}).out);
+        std::string line;
+        std::getline(lines, line);  // has the path
+        while (std::getline(lines, line)) EXPECT_LE(line.size(), 80u) << line;
+    }
     const Outcome cube = run_program({"inspect", "--json", folder / "out/sky.ktx2"});
     ASSERT_EQ(cube.code, 0) << cube.err;
+    expect_valid("inspection", cube.out);
+    expect_valid("inspection", run_program({"inspect", "--json", folder / "out/lut.exr"}).out);
     const Json document = job::parse_json(cube.out, "inspect");
     EXPECT_EQ(document["faces"], 6);
     EXPECT_EQ(document["record"]["name"], "sky");

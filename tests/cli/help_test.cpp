@@ -18,6 +18,9 @@ TEST(Help, FitsEightyColumns) {
                                                {"bake", "--help"},
                                                {"dfg", "--help"},
                                                {"probe", "-h"},
+                                               {"ies", "--help"},
+                                               {"texture", "--help"},
+                                               {"light", "--help"},
                                                {"inspect", "--help"},
                                                {"compare", "--help"},
                                                {"study", "--help"},
@@ -38,7 +41,20 @@ TEST(Help, ListsCommandsAndFlags) {
     const std::string commands = run_program({"--help"}).out;
     for (const char* command : {"bake", "dfg", "probe", "inspect", "compare", "demo", "study"})
         EXPECT_THAT(commands, HasSubstr(command));
-    EXPECT_THAT(run_program({"dfg", "--help"}).out, HasSubstr("--align auto|center|ends"));
+    const std::string dfg = run_program({"dfg", "--help"}).out;
+    EXPECT_THAT(dfg, HasSubstr("--align auto|center|ends"));
+    EXPECT_THAT(dfg, testing::EndsWith(
+                         "\nexample:\n  pbrbake dfg --size 128 --terms ggx,disney_diffuse -o dfg.exr\n"));
+}
+
+TEST(Switches, AreTurnedOffByNo) {
+    EXPECT_THAT(run_program({"texture", "--help"}).out, HasSubstr("--[no-]regularise"));
+    for (const char* off : {"--no-regularise", "--regularise=false"})
+        EXPECT_EQ(
+            run_program({"texture", "--diffuse", "a.png", off, "-o", "/nowhere/a.png", "--dry-run"}).code, 0)
+            << off;
+    EXPECT_THAT(run_program({"dfg", "--no-size", "-o", "/nowhere/a.exr"}).err,
+                HasSubstr("--no-size: unknown flag"));
 }
 
 TEST(Version, IsOneLine) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bakers/job/json_text.hpp"
 #include "bakers/job/schema.hpp"
 #include "tests/cli/program.hpp"
@@ -54,6 +56,23 @@ TEST(TextureCommand, WritesASetInEveryFormatThatHoldsIt) {
         EXPECT_EQ(
             run_program({"inspect", diffuse.parent_path() / (std::string("out_orm.") + extension)}).code, 0);
     }
+}
+
+TEST(TextureCommand, TellsAnErrorAloneAndAnAssumptionOnce) {
+    const TemporaryFolder folder;
+    const fs::path diffuse = folder.write("wall_d.tga", targa(8, 8, 120, 110, 100, 255));
+    const std::vector<std::string> arguments{
+        "texture", "--diffuse", diffuse, "--specular",      folder / "wall_s.tga",
+        "--power", "20",        "-o",    folder / "out.png"};
+    const Outcome missing = run_program(arguments);
+    EXPECT_EQ(missing.code, 4);
+    EXPECT_THAT(missing.err, testing::StartsWith("pbrbake: error: "));
+    EXPECT_EQ(std::ranges::count(missing.err, '\n'), 1) << missing.err;
+    folder.write("wall_s.tga", targa(8, 8, 56, 56, 56, 255));
+    const Outcome done = run_program(arguments);
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.err,
+                HasSubstr("wall_d.tga and wall_s.tga: do not tell their colour space; taken as srgb"));
 }
 
 TEST(TextureCommand, RefusesToWriteOverItsSources) {

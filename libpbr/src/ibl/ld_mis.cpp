@@ -85,7 +85,9 @@ std::uint64_t LdMis::integrate(int size, std::span<const CubeTexel> texels, std:
     const MisLobe lobe{static_cast<float>(alpha_ * alpha_), static_cast<float>(kernel.normalisation())};
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const auto& [face, x, y] = texels[i];
-        const auto hash = [&](Purpose purpose) { return random_bits(seed_, purpose, size, face, x, y); };
+        const auto hash = [&, face = face, x = x, y = y](Purpose purpose) {
+            return random_bits(seed_, purpose, size, face, x, y);
+        };
         const glm::dvec3 n = cubemap_texel_direction(texels[i], size);
         const int set = static_cast<int>(hash(kSetOfTexel) % static_cast<std::uint64_t>(samples_.sets));
         const TexelFrame in_picture =

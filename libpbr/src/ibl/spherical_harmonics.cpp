@@ -13,9 +13,12 @@ namespace {
 int order_for(double phase) {
     for (int i = 0; i < static_cast<int>(std::size(PatchBlocks::kOrders)); ++i) {
         const int n = PatchBlocks::kOrders[i];
-        const double log_error = 2 * n * std::log(phase) + 4 * std::lgamma(n + 1) -
-                                 3 * std::lgamma(2 * n + 1) - std::log(2 * n + 1);
-        if (log_error < std::log(1e-9)) return i;
+        double error = 1.0 / (2 * n + 1);
+        for (double k = 1; k <= n; ++k) {
+            const double odd = 2 * k - 1;
+            error *= phase * phase * k / (odd * odd * odd * 8);
+        }
+        if (error < 1e-9) return i;
     }
     return static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
 }

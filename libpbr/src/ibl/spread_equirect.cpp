@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/quadrature.hpp"
@@ -11,8 +10,6 @@
 
 namespace pbr {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// What a row of the picture adds to a row of the grid; across a pole, where azimuths turn by pi, or not.
 struct RowShare {

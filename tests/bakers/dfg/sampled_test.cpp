@@ -2,6 +2,7 @@
 
 #include "bakers/dfg/sampled.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,6 +22,8 @@
 
 namespace pbrbake::dfg {
 namespace {
+
+using testing::HasSubstr;
 
 DfgParams defaults() {
     DfgParams params{};
@@ -127,6 +130,32 @@ TEST(DfgSampled, AccuracyAsSampledChoosesSizeAndPixel) {
     EXPECT_EQ(certificate.headline->metric, "max_abs_error_sampled");
     EXPECT_EQ(certificate.headline->evidence, Evidence::measured);
     EXPECT_LE(certificate.headline->value, loose.max_error);
+}
+
+TEST(DfgSampled, AccuracyAsSampledKeepsASizeThatTheBakeStates) {
+    Context context(2, {"", 2e-2, true});
+    DfgParams params = defaults();
+    params.size = {96, 64};
+    EXPECT_EQ(bake(params, {}, context).properties["layout"]["size"], (Json{96, 64}));
+}
+
+TEST(DfgSampled, AccuracyThatNoAllowedSizeReachesIsRefusedAtOnce) {
+    const auto refusal = [](const DfgParams& params, double max_error) -> std::string {
+        Context context(2, {"", max_error, true});
+        try {
+            bake(params, {}, context);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ExitCode::accuracy_missed);
+            EXPECT_LT(context.counts()["certify.ggx"], 100'000'000u);  // a table of 1,024 takes billions
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(refusal(defaults(), 1e-9),
+                HasSubstr("max_error 1e-09 leaves a lookup 0, but between the texels of 1024 x 1024"));
+    DfgParams small = defaults();
+    small.size = {16};
+    EXPECT_THAT(refusal(small, 1e-3), HasSubstr("texels of 16 x 16 it is off by"));
 }
 
 TEST(DfgSampled, AccuracyAsSampledChoosesAxesThatTheJobLeavesOpen) {
@@ -365,7 +394,7 @@ TEST(DfgTargets, SetTheLayoutUnlessTheBakeStatesItsOwn) {
     EXPECT_EQ(settled(params).size, (std::vector{128, 32}));
 }
 
-TEST(DfgTargets, StoreUnitysDisneyDiffuseLessOneHalf) {
+TEST(DfgTargets, StoreDisneyDiffuseAsUnityScalesIt) {
     DfgParams params = defaults();
     params.target = Target::unity_hdrp;
     params.size = {8};
@@ -373,7 +402,12 @@ TEST(DfgTargets, StoreUnitysDisneyDiffuseLessOneHalf) {
     const Product unity = bake(params, {}, context);
     params.disney = Disney::original;
     const Product plain = bake(params, {}, context);
-    EXPECT_NEAR(unity.images[0].texel(0, 0, 5, 3)[2] + 0.5f, plain.images[0].texel(0, 0, 5, 3)[2], 1e-7f);
+    // Unity's BSDF.hlsl divides by 1.03571, "the value of the integral for (theta_view = 0)" at roughness 1:
+    // the table has 1 there, less the half.
+    EXPECT_NEAR(unity.images[0].texel(0, 0, 7, 7)[2], 0.5, 1e-5);
+    EXPECT_NEAR(plain.images[0].texel(0, 0, 7, 7)[2], 1 + 1 / 28.0, 1e-7);
+    EXPECT_NEAR((unity.images[0].texel(0, 0, 5, 3)[2] + 0.5) * 1.03571, plain.images[0].texel(0, 0, 5, 3)[2],
+                1e-7);
 }
 
 }  // namespace

@@ -68,16 +68,18 @@ class Checker {
         bits_ = format->second.second;
         width_ = u32(20);
         height_ = u32(24);
+        depth_ = u32(28);
         faces_ = u32(36);
         level_count_ = u32(40);
         expect(u32(16) == bits_ / 8, "typeSize is not a component's size");
         expect(width_ > 0 && height_ > 0, "pixelWidth and pixelHeight must not be 0");
-        expect(u32(28) == 0 && u32(32) == 0, "pixelDepth and layerCount must be 0");
+        expect(u32(32) == 0, "layerCount must be 0");
+        expect(faces_ != 6 || depth_ == 0, "cube maps have no pixelDepth");
         expect(faces_ == 1 || faces_ == 6, "faceCount must be 1 or 6");
         expect(faces_ != 6 || width_ == height_, "cube map faces must be square");
         expect(u32(44) == 0, "supercompressionScheme");
         std::uint64_t most = 1;
-        for (std::uint64_t side = std::max(width_, height_); side > 1; side /= 2) ++most;
+        for (std::uint64_t side = std::max({width_, height_, depth_}); side > 1; side /= 2) ++most;
         expect(level_count_ >= 1 && level_count_ <= most, "levelCount");
     }
 
@@ -166,8 +168,10 @@ class Checker {
 
     void check_reserved(const std::string& key, const std::string& value) {
         if (key == "KTXorientation")
-            expect(value == "rd",
-                   "KTXorientation must be rd for cube maps, and is for pictures whose row 0 is on top");
+            expect(
+                value == (depth_ > 0 ? "rdi" : "rd"),
+                "KTXorientation must be rd for cube maps, and is for pictures whose row 0 is on top; rdi for "
+                "volumes");
         else if (key == "KTXwriter")
             expect(!value.empty(), "KTXwriter must name its writer");
         else
@@ -182,7 +186,8 @@ class Checker {
             const std::uint64_t at = 80 + 24 * level;
             const std::uint64_t offset = u64(at), size = u64(at + 8);
             const std::uint64_t texels = faces_ * std::max<std::uint64_t>(1, width_ >> level) *
-                                         std::max<std::uint64_t>(1, height_ >> level);
+                                         std::max<std::uint64_t>(1, height_ >> level) *
+                                         std::max<std::uint64_t>(1, depth_ >> level);
             expect(size == texels * texel, which + "byteLength");
             expect(u64(at + 16) == size, which + "uncompressedByteLength");
             expect(offset % alignment == 0, which + "alignment");
@@ -206,7 +211,7 @@ class Checker {
     std::vector<std::string> breaches_;
     bool is_unorm_ = false;
     bool is_srgb_ = false;
-    std::uint64_t channels_ = 0, bits_ = 0, width_ = 0, height_ = 0, faces_ = 0, level_count_ = 0;
+    std::uint64_t channels_ = 0, bits_ = 0, width_ = 0, height_ = 0, depth_ = 0, faces_ = 0, level_count_ = 0;
     Section dfd_, kvd_;
 };
 

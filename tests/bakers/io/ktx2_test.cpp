@@ -4,8 +4,10 @@
 
 #include <half.h>
 
+#include <array>
 #include <cstring>
 
+#include "bakers/formats.hpp"
 #include "tests/bakers/io/fixtures.hpp"
 #include "tests/bakers/io/ktx2_checker.hpp"
 
@@ -28,19 +30,26 @@ std::string joined(const std::vector<std::string>& breaches) {
 
 /// One of every shape and format that is written.
 std::vector<std::pair<std::string, Image>> shapes() {
+    Image volume = marked_image(6, 1, 5, {"x", "y"}), srgb = marked_image(8, 4, 1, {"R", "G", "B", "A"});
+    volume.is_volume = true;
+    srgb.transfer = Transfer::srgb;
     return {{"cube", marked_image(16, 5, 6, {"R", "G", "B"})},
             {"cube_npot", marked_image(20, 3, 6, {"R", "G", "B"})},
             {"cube_one", marked_image(1, 1, 6, {"R", "G", "B"})},
             {"rgba", marked_image(8, 4, 1, {"R", "G", "B", "A"})},
             {"rg", marked_image(9, 3, 1, {"scale", "bias"})},
             {"r", marked_image(5, 3, 1, {"Y"})},
-            {"table", marked_image(6, 1, 1, {"x", "y", "energy"})}};
+            {"table", marked_image(6, 1, 1, {"x", "y", "energy"})},
+            {"volume", volume},
+            {"srgb", srgb}};
 }
+
+constexpr std::array kPixels{PixelType::half, PixelType::float32, PixelType::unorm16, PixelType::unorm8};
 
 TEST(Ktx2, EveryShapeKeepsToTheSpecification) {
     for (const auto& [name, image] : shapes())
-        for (const PixelType pixel : {PixelType::half, PixelType::float32, PixelType::unorm16}) {
-            SCOPED_TRACE(name);
+        for (const PixelType pixel : kPixels) {
+            SCOPED_TRACE(name + " " + std::string(pixel_name(pixel)));
             EXPECT_EQ(joined(check_ktx2(encode("ktx2", image, info_with(pixel)))), "");
         }
 }
@@ -118,15 +127,15 @@ TEST(Ktx2, AnotherParserAgrees) {
     TempDir dir;
     std::string command = "node '" + (external / "check_ktx2.mjs").string() + "'";
     for (const auto& [name, image] : shapes())
-        for (const PixelType pixel : {PixelType::half, PixelType::float32}) {
-            const auto path = dir / (name + (pixel == PixelType::half ? "_half.ktx2" : "_float.ktx2"));
+        for (const PixelType pixel : kPixels) {
+            const auto path = dir / (name + "_" + std::string(pixel_name(pixel)) + ".ktx2");
             write_file(path, encode("ktx2", image, info_with(pixel)));
             command += " '" + path.string() + "'";
         }
     int status = 0;
     const std::string output = run_program(command, status);
     EXPECT_EQ(status, 0) << output;
-    EXPECT_NE(output.find("14 files"), std::string::npos) << output;
+    EXPECT_NE(output.find("36 files"), std::string::npos) << output;
 
     Buffer broken = encode("ktx2", marked_image(4, 2, 6, {"R", "G", "B"}), {});
     broken[36] = std::byte{5};  // faceCount

@@ -3,14 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "bakers/job/json_text.hpp"
+#include "bakers/job/schema.hpp"
 
 namespace pbrbake::job {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::StartsWith;
 
 Json param(const std::string& kind, const std::string& flag, const std::string& text,
@@ -49,10 +52,32 @@ TEST(Flags, TellWhatTheyTake) {
         flags[flag.name] = flag;
     }
     EXPECT_EQ(flags["size"].value, "N|N,...");
-    EXPECT_THAT(flags["size"].help,
-                testing::EndsWith("[integer 0 to 4096, or an array of 2 to 3 of those; default: 0]"));
+    EXPECT_THAT(flags["size"].help, EndsWith("[integer 0 to 4096, or 2 to 3 of those; default: 0]"));
+    EXPECT_THAT(flags["target"].help, EndsWith("[none, filament, unity-hdrp, unreal, bevy, babylon, "
+                                               "o3de; default: none]"));
     EXPECT_TRUE(flags["flip-rows"].is_switch);
+    EXPECT_FALSE(flags["flip-rows"].on_by_default);
+    EXPECT_THAT(flags["flip-rows"].help, EndsWith("Of a target too."));
     EXPECT_EQ(flags["accuracy"].value, "draft|production|reference|X");
+}
+
+TEST(Flags, TellWhetherSwitchesAreOn) {
+    const std::vector<Flag> flags = flags_of("texture");
+    const auto regularise = std::ranges::find(flags, "regularise", &Flag::name);
+    EXPECT_TRUE(regularise->is_switch);
+    EXPECT_TRUE(regularise->on_by_default);
+    EXPECT_EQ(std::ranges::find(flags, "diffuse", &Flag::name)->value, "FILE");
+    EXPECT_EQ(std::ranges::find(flags, "diffuse-factor", &Flag::name)->value, "X,X,X");
+}
+
+TEST(Flags, HaveExamplesThatAreValid) {
+    EXPECT_EQ(example_of("probe"), "pbrbake probe studio.hdr --size 256 -o studio.ktx2");
+    EXPECT_EQ(example_of("dfg"), "pbrbake dfg --size 128 --terms ggx,disney_diffuse -o dfg.exr");
+    for (const char* kind : {"dfg", "probe", "ies", "texture", "light"})
+        for (const Json& example : job_schema().root()["definitions"][kind]["examples"]) {
+            const Json document{{"version", 1}, {"bakes", Json::array({example})}};
+            EXPECT_TRUE(job_schema().mistakes(document).empty()) << example;
+        }
 }
 
 TEST(Flags, BecomeJson) {
@@ -85,16 +110,22 @@ TEST(Flags, GoDownTheWayOfAJob) {
 }
 
 TEST(Flags, AreNamedInMistakes) {
-    EXPECT_THAT(mistakes("dfg", {{"size", "big"}, {"terms", "ggx,gx"}, {"seed", "nan"}}),
-                ElementsAre("--size: found \"big\"; allowed: integer 0 to 4096, or an array of 2 to 3 of those",
-                            "--terms: found \"gx\"; allowed: \"ggx\", \"disney_diffuse\", \"multiscatter\", "
-                            "\"charlie\", \"clear_coat\", \"uncorrelated\", \"eon\", \"chan\", \"hammon\", "
-                            "\"subsurface\", \"ggx_anisotropic\"; did you mean \"ggx\"?",
-                            "--seed: found \"nan\"; allowed: integer 0 to 2^53 - 1"));
+    EXPECT_THAT(
+        mistakes("dfg", {{"size", "big"}, {"terms", "ggx,gx"}, {"seed", "nan"}}),
+        ElementsAre("--size: found \"big\"; allowed: integer 0 to 4096, or an array of 2 to 3 of those",
+                    "--terms: found \"gx\"; allowed: \"ggx\", \"disney_diffuse\", \"multiscatter\", "
+                    "\"charlie\", \"clear_coat\", \"uncorrelated\", \"eon\", \"chan\", \"hammon\", "
+                    "\"subsurface\", \"ggx_anisotropic\"; did you mean \"ggx\"?",
+                    "--seed: found \"nan\"; allowed: integer 0 to 2^53 - 1"));
     EXPECT_THAT(mistakes("dfg", {{"max-side", "0"}}),
                 ElementsAre("--max-side: found 0; allowed: integer 1 to 1048576"));
     EXPECT_THAT(mistakes("dfg", {{"accuracy", "1e-3:sampeld"}}),
-                ElementsAre(testing::HasSubstr("--accuracy: found \"1e-3:sampeld\"")));
+                ElementsAre("--accuracy: found \"sampeld\"; allowed: \"texels\", \"sampled\"; did you mean "
+                            "\"sampled\"?"));
+    EXPECT_THAT(mistakes("dfg", {{"accuracy", "prodction"}}),
+                ElementsAre(EndsWith("did you mean \"production\"?")));
+    for (const char* size : {"0x10", "0X10", "+-5", "1e3", " 8", "8 "})
+        EXPECT_THAT(mistakes("dfg", {{"size", size}}), ElementsAre(StartsWith("--size: found "))) << size;
     EXPECT_THAT(mistakes("dfg", {{"accuracy", "-1"}}),
                 ElementsAre("--accuracy: found -1.0; allowed: number above 0"));
     EXPECT_THAT(mistakes("probe", {}), ElementsAre(StartsWith("SOURCE: missing")));

@@ -47,12 +47,13 @@ TEST(ChanDiffuse, HasTheAlbedosStated) {
 TEST(ChanDiffuse, AlbedoAgreesWithAdaptiveIntegration) {
     for (const auto& [alpha, NoV] :
          {std::pair{0.0, 0.3}, {.01, .1}, {.1, 1.0}, {.3, .6}, {1.0, .05}, {1.0, 1.0}})
-        EXPECT_NEAR(
-            albedo_chan(NoV, alpha),
-            reflection_albedo(
-                [&](const Reflection<double>& r) { return f_chan(r.NoL, r.NoV, r.NoH, r.LoH, alpha); }, NoV,
-                1e-10),
-            1e-9)
+        EXPECT_NEAR(albedo_chan(NoV, alpha),
+                    reflection_albedo(
+                        [alpha = alpha](const Reflection<double>& r) {
+                            return f_chan(r.NoL, r.NoV, r.NoH, r.LoH, alpha);
+                        },
+                        NoV, 1e-10),
+                    1e-9)
             << alpha << " " << NoV;  // the witness is off by up to 1e-10 of its panels
     for (const double alpha : {0.0, 1e-3, .08, .5, 1.0})
         for (const double NoV : {0.0, 1e-4, .02})

@@ -78,7 +78,7 @@ TEST(Fresnel, SchlickIsAsFarFromTheTruthAsStated) {
     const double stated[][2] = {{1.33, .060}, {1.5, .036}, {1.8, .035}, {2, .045}, {2.5, .083}, {3, .125}};
     for (const auto& [ior, error] : stated) {
         const double measured =
-            schlick_error(f0_from_ior(ior), [&](double c) { return F_dielectric(c, ior); });
+            schlick_error(f0_from_ior(ior), [ior = ior](double c) { return F_dielectric(c, ior); });
         EXPECT_LE(measured, error + 5e-4) << ior;
         EXPECT_GT(measured, error - 1.5e-3) << ior;
     }

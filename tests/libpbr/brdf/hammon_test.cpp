@@ -44,7 +44,7 @@ TEST(HammonDiffuse, AlbedoAgreesWithAdaptiveIntegration) {
             EXPECT_NEAR(
                 rho * (albedo_hammon_single(NoV, alpha) + rho * kHammonMultipleAlbedo<double> * alpha),
                 reflection_albedo(
-                    [&](const Reflection<double>& r) {
+                    [rho, alpha = alpha](const Reflection<double>& r) {
                         return f_hammon(rho, r.NoL, r.NoV, r.NoH, r.LoV, alpha);
                     },
                     NoV, 1e-10),

@@ -98,7 +98,7 @@ TEST(Sun, ShiningFromItsNearestPointIsTooBrightForSmoothSurfaces) {
     // Seen at the mirror direction, over the disk about it: mean of D against D at the centre.
     const double s = kSunHalfAngle_rad;
     for (const auto& [alpha, excess] : {std::pair{.01, 1.05}, std::pair{.001, 6.4}}) {
-        const auto ring = [&](double t) {  // t: angle of the half vector, half of the light's
+        const auto ring = [alpha = alpha](double t) {  // t: angle of the half vector, half of the light's
             const double c = std::cos(t), sine = std::sin(t);
             return D_ggx(c, sine * sine, alpha) * 2 * std::sin(2 * t) * 2 * kPi;
         };
