@@ -8,11 +8,11 @@
 #include <numbers>
 #include <numeric>
 
+#include "bakers/verify/baked_image.hpp"
 #include "bakers/verify/face.hpp"
 #include "bakers/verify/metrics.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/picture.hpp"
-#include "pbr/brdf/roughness.hpp"
 #include "pbr/ibl/cubemap.hpp"
 
 namespace pbrbake::verify {
@@ -404,13 +404,14 @@ Suspect Diagnosis::probe_roughness() const {
     constexpr int kLargestSide = 64;  // of levels looked at
     const int levels = static_cast<int>(b_.levels.size());
     if (levels < 3 || b_.channels.size() != 3) return {};
-    const ProbeLookup lookup(b_, 1);
+    const std::vector<double> of_levels = perceptual_roughness_of_levels(product_.record, b_.levels.size());
+    const ProbeLookup lookup(b_, 1, of_levels);
     double there = 0;
     std::array<double, 2> left{};
     for (int level = 1; level + 1 < levels; ++level) {  // the mirror and alpha = 1 are their own squares
         const int n = b_.levels[static_cast<std::size_t>(level)].width;
         if (n > kLargestSide) continue;
-        const double p = pbr::perceptual_roughness_from_level(level, levels);
+        const double p = of_levels[static_cast<std::size_t>(level)];
         for (int face = 0; face < 6; ++face) {
             const Face a = face_of(a_, level, face);
             there += distance(a, face_of(b_, level, face), typical_);

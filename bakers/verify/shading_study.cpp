@@ -161,8 +161,8 @@ class ShadingPage {
     }
 
     static std::string table(const std::vector<Shaded>& all) {
-        Table table({"roughness", "shading", "NoV below .1", ".1 to .3", ".3 to .6", "above .6", "all",
-                     "bias, all", "FLIP"});
+        Table table({"perceptual roughness", "shading", "NoV below .1", ".1 to .3", ".3 to .6", "above .6",
+                     "all", "bias, all", "FLIP"});
         table.set_text(1);
         for (const Shaded& shaded : all)
             for (std::size_t i = 1; i < kShadingNames.size(); ++i) {

@@ -85,7 +85,7 @@ Picture shaded_ball(const BakedImage& probe, double exposure) {
         }
         return list;
     }();
-    const ProbeLookup lookup(probe.image, probe.scale);
+    const ProbeLookup lookup(probe.image, probe.scale, probe.perceptual_roughness);
     const View view({-0.6, -0.1, -0.8});
     return ball_picture(kBall, view, [&](const glm::dvec3& normal, const glm::dvec3& reflected) {
         const double NoV = std::clamp(-glm::dot(normal, view.forward), 0.0, 1.0);
