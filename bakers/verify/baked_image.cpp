@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bakers/io/io.hpp"
+#include "bakers/verify/face.hpp"
 #include "pbr/brdf/roughness.hpp"
 #include "pbr/numerics/sum.hpp"
 
@@ -27,6 +28,18 @@ BakedImage read_baked(const run::BakeReport& bake) {
     std::vector<double> perceptual_roughness =
         perceptual_roughness_of_levels(bake.entry, image.levels.size());
     return {std::move(image), bake.entry["scale"].get<double>(), std::move(perceptual_roughness)};
+}
+
+BakedImage resampled(const BakedImage& flat, int width, int height) {
+    const Face texels = face_of(flat.image, 0, 0);
+    Image image = flat.image;
+    image.levels.assign(1, {width, height, {}});
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < texels.channels; ++c)
+                image.levels[0].texels.push_back(texels.between((x + 0.5) / width * texels.width - 0.5,
+                                                                (y + 0.5) / height * texels.height - 0.5, c));
+    return {std::move(image), flat.scale, flat.perceptual_roughness};
 }
 
 double value_error(const BakedImage& product, const BakedImage& reference, int level, std::size_t index) {

@@ -21,6 +21,10 @@ std::vector<double> perceptual_roughness_of_levels(const Json& record, std::size
 /// The first image of a bake that is done, decoded from its file.
 BakedImage read_baked(const run::BakeReport& bake);
 
+/// A flat image read bilinearly, its edges clamped, at the texel centres of a larger or smaller one, one
+/// level.
+BakedImage resampled(const BakedImage& flat, int width, int height);
+
 /// Stored value less the reference's, both divided by their scales; `index` is into Level::texels.
 double value_error(const BakedImage& product, const BakedImage& reference, int level, std::size_t index);
 
