@@ -9,8 +9,8 @@
 #include <map>
 #include <numbers>
 
-#include "bakers/io/io.hpp"
 #include "bakers/verify/demo_pictures.hpp"
+#include "bakers/verify/product_file.hpp"
 #include "bakers/verify/shaded_truth.hpp"
 #include "bakers/verify/shading_study.hpp"
 #include "pbr/ibl/environment.hpp"
@@ -95,14 +95,14 @@ Lobe ggx(const glm::dvec3& diffuse, const glm::dvec3& f0, double perceptual_roug
     };
 }
 
-/// Images of a bake with packing `separate`, by what they hold.
-std::map<std::string, Image> separate_images(const std::vector<std::filesystem::path>& files) {
-    std::map<std::string, Image> images;
+/// Products of a bake with packing `separate`, by what they hold.
+std::map<std::string, ProductFile> separate_images(const std::vector<std::filesystem::path>& files) {
+    std::map<std::string, ProductFile> images;
     for (const std::filesystem::path& file : files)
         for (const char* held : {"metallic", "roughness", "reflectance"})
             if (file.stem().string().ends_with(std::string("_") + held))
-                images[held] = io::read_product(file).image;
-    if (images.size() == 3) images["base_color"] = io::read_product(files.front()).image;
+                images[held] = read_product_file(file, nullptr);
+    if (images.size() == 3) images["base_color"] = read_product_file(files.front(), nullptr);
     return images;
 }
 
@@ -131,20 +131,22 @@ LinearPicture legacy_sphere(const LegacySet& set, int size) {
 }
 
 LinearPicture converted_sphere(const std::vector<std::filesystem::path>& files, int size) {
-    const std::map<std::string, Image> images = separate_images(files);
+    const std::map<std::string, ProductFile> images = separate_images(files);
     if (images.size() < 4) return {0, 0};
+    /// The first channels at (u, v), the nearest texel.
     const auto read = [&](const char* held, double u, double v) {
-        const Image& image = images.at(held);
-        const Level& level = image.levels[0];
-        return image.texel(0, 0, static_cast<int>(v * level.height) % level.height,
-                           static_cast<int>(u * level.width) % level.width);
+        const ProductFile& product = images.at(held);
+        const Level& level = product.image.levels[0];
+        const float* texel = product.image.texel(0, 0, static_cast<int>(v * level.height) % level.height,
+                                                 static_cast<int>(u * level.width) % level.width);
+        const int last = product.image.channel_count() - 1;
+        return glm::dvec3(texel[0], texel[std::min(1, last)], texel[std::min(2, last)]) / product.scale;
     };
     return shaded_sphere(size, [&](double u, double v) {
-        const float* base = read("base_color", u, v);
-        const glm::dvec3 colour(base[0], base[1], base[2]);
-        const double metallic = *read("metallic", u, v), reflectance = *read("reflectance", u, v);
+        const glm::dvec3 colour = read("base_color", u, v);
+        const double metallic = read("metallic", u, v).x, reflectance = read("reflectance", u, v).x;
         const glm::dvec3 f0 = glm::mix(glm::dvec3(pbr::f0_from_reflectance(reflectance)), colour, metallic);
-        return ggx(colour * (1 - metallic), f0, *read("roughness", u, v));
+        return ggx(colour * (1 - metallic), f0, read("roughness", u, v).x);
     });
 }
 

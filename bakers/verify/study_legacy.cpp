@@ -89,7 +89,7 @@ struct Falloff {
     const char *name, *title, *about, *json;
 };
 constexpr std::array<Falloff, 4> kFalloffs{
-    {{"ramp", "1 - d / 300", "Light that ends at 300, as Quake and early three.js had it.",
+    {{"ramp", "1 − d / 300", "Light that ends at 300, as Quake and early three.js had it.",
       R"({"kind": "linear", "range": 300})"},
      {"inverse", "1 / (1 + d / 10)", "Light that fades too slowly for any lamp.",
       R"({"kind": "polynomial", "constant": 1, "linear": 0.1, "quadratic": 0})"},

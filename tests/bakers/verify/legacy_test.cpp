@@ -25,11 +25,9 @@ double mean_luminance(const LinearPicture& picture) {
 
 /// What a set's own bake wrote, and its report.
 run::BakeReport converted(const LegacySet& set, const TemporaryFolder& folder) {
-    Json bake = write_legacy_maps(set, 64, folder.path());
-    for (const auto& [key, value] :
-         Json{{"multiscatter", false}, {"calibrate", "none"}, {"packing", "separate"}, {"pixel", "float"}}
-             .items())
-        bake[key] = value;
+    const Json bake = with_overrides(
+        write_legacy_maps(set, 64, folder.path()),
+        {{"multiscatter", false}, {"calibrate", "none"}, {"packing", "separate"}, {"pixel", "float"}});
     const job::Job job = single_bake_job({}, bake, set.name, folder.path());
     run::BakeReport report = run::run_bake(job, job.bakes.front(), {});
     EXPECT_EQ(report.error, "");
