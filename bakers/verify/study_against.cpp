@@ -17,7 +17,7 @@ std::map<std::string, double> ratios_of(const Json& study) {
             const Json& point = studied["points"][i];
             if (!point.contains("time_ratio") || i == studied.at("base").get<std::size_t>()) continue;
             ratios[studied.at("name").get<std::string>() + ", " + point.at("series").get<std::string>() +
-                   " " + point.at("step").get<std::string>()] = point["time_ratio"].at("value").get<double>();
+                   " " + point.at("step").get<std::string>()] = point["time_ratio"].at("median").get<double>();
         }
     return ratios;
 }

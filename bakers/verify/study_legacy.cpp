@@ -65,13 +65,16 @@ StudyCase resolution_case(Depth depth, const fs::path& folder) {
     asked.title = "Legacy textures: resolution of the maps";
     asked.about = "Base colour read bilinearly, against that of maps of " + std::to_string(full) + " x " +
                   std::to_string(full) + " texels.";
-    asked.bake = write_legacy_maps(set, full, folder);
+    std::vector<std::pair<int, Json>> maps;
+    for (int size = full / 16; size <= full; size *= 2)
+        maps.emplace_back(size, write_legacy_maps(set, size, folder));
+    asked.bake = maps.back().second;
     asked.bake["calibrate"] = "none";
     asked.reference = Json{{"pixel", "float"}};
     for (const auto& [name, pixel] : {std::pair{"8 bits", "unorm8"}, {"half", "half"}}) {
         Series series{name, "size", {}};
-        for (int size = full / 16; size <= full; size *= 2) {
-            Json overrides = write_legacy_maps(set, size, folder);
+        for (const auto& [size, names] : maps) {
+            Json overrides = names;
             overrides["pixel"] = pixel;
             overrides["format"] = "ktx2";
             series.steps.push_back({std::to_string(size), std::move(overrides), ""});
