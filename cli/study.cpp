@@ -10,6 +10,7 @@
 #include "bakers/job/json_text.hpp"
 #include "bakers/job/words.hpp"
 #include "bakers/run/atomic_file.hpp"
+#include "bakers/verify/study_against.hpp"
 #include "bakers/verify/study_effects.hpp"
 #include "bakers/verify/study_plot.hpp"
 #include "bakers/verify/study_report.hpp"
@@ -22,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kAgreement = .1;                     // of ratios of time in two studies
 constexpr std::size_t kMostPictureBytes = 3'500'000;  // leaves the page below 5 MB
 
 /// A folder of its own for what a study bakes, gone when the study is.
@@ -73,11 +75,20 @@ struct Results {
     }
 };
 
-/// Photometric files that the suite made for itself go beside the study, for who repeats a bake.
-void keep_sources(const fs::path& scratch, const fs::path& folder) {
-    for (const auto& entry : fs::directory_iterator(scratch))
-        if (entry.path().extension() == ".ies")
-            run::write_atomically(folder / entry.path().filename(), job::read_text(entry.path()));
+/// Files that the suite made for the cases studied go beside the study, for who repeats a bake.
+void keep_sources(const verify::Study& study, const fs::path& scratch, const fs::path& folder) {
+    const auto keep = [&](const Json& bake) {
+        for (const Json& value : bake) {
+            if (!value.is_string()) continue;
+            const fs::path file(value.get<std::string>());
+            if (file.is_absolute() && file.parent_path() == fs::absolute(scratch))
+                run::write_atomically(folder / file.filename(), job::read_text(file));
+        }
+    };
+    for (const verify::StudiedCase& studied : study.cases) {
+        keep(studied.asked.bake);
+        for (const verify::StudyPoint& point : studied.points) keep(point.step.overrides);
+    }
 }
 
 /// The page comes last: where it is, the rest is.
@@ -119,7 +130,7 @@ std::string command_line(const Arguments& arguments) {
 void check_together(const Given& given) {
     const bool shading = given.is_on("shading");
     const std::vector<const char*> others =
-        shading ? std::vector<const char*>{"job", "suite", "only", "effects", "budget-s", "json"}
+        shading ? std::vector<const char*>{"job", "suite", "only", "effects", "budget-s", "against", "json"}
                 : std::vector<const char*>{"environment", "size"};
     for (const std::string other : others)
         if (given.has(other))
@@ -151,15 +162,32 @@ Options study_command_options() {
     options.add({"output",
                  {{"o,output", "DIR",
                    "Folder for study.html, study.json, study.csv and study.svg. [default: study]"}}});
-    options.add({"running",
-                 {{"threads", "N",
-                   "Worker threads of references and certificates; times are of one. "
-                   "[default: all processors]"},
-                  {"budget-s", "N",
-                   "Wall seconds after which times are not repeated further. [default: 90, full: 1500]"},
-                  {"json", "", "Prints the study as JSON instead of the table.", true},
-                  {"quiet", "", "Shows errors alone, and the result.", true}}});
+    options.add(
+        {"running",
+         {{"threads", "N",
+           "Worker threads of references and certificates; times are of one. "
+           "[default: all processors]"},
+          {"budget-s", "N",
+           "Wall seconds after which times are not repeated further. [default: 90, full: 1500]"},
+          {"against", "FILE",
+           "The study.json of an earlier study: tells how many ratios of time agree within 10 %, and which "
+           "is furthest off."},
+          {"json", "", "Prints the study as JSON instead of the table.", true},
+          {"quiet", "", "Shows errors alone, and the result.", true}}});
     return options;
+}
+
+/// The study that --against names, null without one; read before hours are spent.
+Json earlier_study(const Given& given) {
+    const auto file = given.find("against");
+    if (!file) return nullptr;
+    Json study = job::parse_json(job::read_text(*file), *file);
+    try {
+        verify::ratio_agreement(study, study, kAgreement);
+    } catch (const Json::exception&) {
+        throw Error(ExitCode::unreadable_input, *file, "is no study.json");
+    }
+    return study;
 }
 
 Results run_all(const Given& given, const verify::StudyOptions& options) {
@@ -203,11 +231,14 @@ ExitCode study_command(const Arguments& arguments) {
     if (!given->is_on("quiet"))
         options.tell = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
     try {
+        const Json before = earlier_study(*given);
         const Results results = run_all(*given, options);
         const fs::path folder = given->find("output").value_or("study");
-        keep_sources(scratch.path(), folder);
+        keep_sources(results.study, scratch.path(), folder);
         write_results(results, pictures, command_line(arguments), folder);
         print_results(results, given->is_on("json"));
+        if (!before.is_null())
+            std::fprintf(stderr, "%s\n", verify::ratio_agreement(results.json(), before, kAgreement).c_str());
     } catch (const Cancelled&) {
         return ExitCode::interrupted;
     }

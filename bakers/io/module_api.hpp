@@ -14,7 +14,7 @@
 namespace pbrbake::io {
 
 /// Raised when anything in this header changes; a module of another number is refused.
-inline constexpr int kModuleAbi = 3;
+inline constexpr int kModuleAbi = 4;
 
 /// What a file says of its picture before a pixel is decoded.
 struct PictureSpec {
@@ -61,6 +61,9 @@ struct OcioModule {
     int abi;
     /// From `from` to linear light in `working`, in place, over `texels` RGB triples.
     bool (*convert)(const Encoding& from, Gamut working, float* rgb, std::size_t texels, std::string& error);
+    /// From linear light in `working`, 1 what saturates the sensor, to sRGB's codes over 255, in place: ACES
+    /// 1's output transform for SDR video.
+    bool (*display)(Gamut working, float* rgb, std::size_t texels, std::string& error);
 };
 
 /// Loads a module at its first use. Throws Error(unreadable_input) that names the files it looked for.

@@ -95,11 +95,13 @@ OCIO::GroupTransformRcPtr steps_between(const Encoding& from, Gamut working) {
     return steps;
 }
 
-bool convert(const Encoding& from, Gamut working, float* rgb, std::size_t texels, std::string& error) {
+/// Applies what `steps` returns to RGB triples.
+template <class Steps>
+bool apply(const Steps& steps, float* rgb, std::size_t texels, std::string& error) {
     try {
         const auto config = OCIO::Config::Create();
         config->setVersion(2, 1);
-        const OCIO::ConstProcessorRcPtr processor = config->getProcessor(steps_between(from, working));
+        const OCIO::ConstProcessorRcPtr processor = config->getProcessor(steps());
         // Lossless leaves out the fast, approximate pow.
         const OCIO::ConstCPUProcessorRcPtr cpu =
             processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
@@ -116,10 +118,27 @@ bool convert(const Encoding& from, Gamut working, float* rgb, std::size_t texels
     return false;
 }
 
+bool convert(const Encoding& from, Gamut working, float* rgb, std::size_t texels, std::string& error) {
+    return apply([&] { return steps_between(from, working); }, rgb, texels, error);
+}
+
+bool display(Gamut working, float* rgb, std::size_t texels, std::string& error) {
+    const auto steps = [&] {
+        auto group = OCIO::GroupTransform::Create();
+        append_to_ap0(*group, working, {});
+        group->appendTransform(
+            builtin("ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0", OCIO::TRANSFORM_DIR_FORWARD));
+        group->appendTransform(builtin("DISPLAY - CIE-XYZ-D65_to_sRGB", OCIO::TRANSFORM_DIR_FORWARD));
+        return group;
+    };
+    return apply(steps, rgb, texels, error);
+}
+
 }  // namespace
 }  // namespace pbrbake::io
 
 extern "C" __attribute__((visibility("default"))) const pbrbake::io::OcioModule* pbrbake_ocio_module() {
-    static const pbrbake::io::OcioModule table{pbrbake::io::kModuleAbi, &pbrbake::io::convert};
+    static const pbrbake::io::OcioModule table{pbrbake::io::kModuleAbi, &pbrbake::io::convert,
+                                               &pbrbake::io::display};
     return &table;
 }

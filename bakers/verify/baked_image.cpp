@@ -3,12 +3,43 @@
 #include <cmath>
 
 #include "bakers/io/io.hpp"
+#include "bakers/verify/face.hpp"
+#include "pbr/brdf/roughness.hpp"
 #include "pbr/numerics/sum.hpp"
 
 namespace pbrbake::verify {
 
+std::vector<double> perceptual_roughness_of_levels(const Json& record, std::size_t levels) {
+    std::vector<double> list;
+    if (record.is_object() && record.contains("levels") && record["levels"].is_array())
+        for (const Json& level : record["levels"])
+            if (level.is_object() && level.contains("perceptual_roughness"))
+                list.push_back(level["perceptual_roughness"].get<double>());
+    if (list.size() == levels) return list;
+    list.clear();
+    for (std::size_t level = 0; level < levels; ++level)
+        list.push_back(
+            pbr::perceptual_roughness_from_level(static_cast<double>(level), static_cast<int>(levels)));
+    return list;
+}
+
 BakedImage read_baked(const run::BakeReport& bake) {
-    return {io::read_product(bake.writes.front()).image, bake.entry["scale"].get<double>()};
+    Image image = io::read_product(bake.writes.front()).image;
+    std::vector<double> perceptual_roughness =
+        perceptual_roughness_of_levels(bake.entry, image.levels.size());
+    return {std::move(image), bake.entry["scale"].get<double>(), std::move(perceptual_roughness)};
+}
+
+BakedImage resampled(const BakedImage& flat, int width, int height) {
+    const Face texels = face_of(flat.image, 0, 0);
+    Image image = flat.image;
+    image.levels.assign(1, {width, height, {}});
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < texels.channels; ++c)
+                image.levels[0].texels.push_back(texels.between((x + 0.5) / width * texels.width - 0.5,
+                                                                (y + 0.5) / height * texels.height - 0.5, c));
+    return {std::move(image), flat.scale, flat.perceptual_roughness};
 }
 
 double value_error(const BakedImage& product, const BakedImage& reference, int level, std::size_t index) {

@@ -2,6 +2,7 @@
 // Products read back, and how far one is from another.
 
 #include <cstddef>
+#include <vector>
 
 #include "bakers/image.hpp"
 #include "bakers/run/run.hpp"
@@ -12,9 +13,17 @@ namespace pbrbake::verify {
 struct BakedImage {
     Image image;
     double scale = 1;
+    std::vector<double> perceptual_roughness;  ///< of each level
 };
+/// What a product's record says of its levels; pbr::perceptual_roughness_from_level where it says nothing.
+std::vector<double> perceptual_roughness_of_levels(const Json& record, std::size_t levels);
+
 /// The first image of a bake that is done, decoded from its file.
 BakedImage read_baked(const run::BakeReport& bake);
+
+/// A flat image read bilinearly, its edges clamped, at the texel centres of a larger or smaller one, one
+/// level.
+BakedImage resampled(const BakedImage& flat, int width, int height);
 
 /// Stored value less the reference's, both divided by their scales; `index` is into Level::texels.
 double value_error(const BakedImage& product, const BakedImage& reference, int level, std::size_t index);

@@ -7,6 +7,7 @@
 #include "bakers/formats.hpp"
 #include "bakers/io/io.hpp"
 #include "bakers/job/json_text.hpp"
+#include "bakers/verify/certificates.hpp"
 #include "bakers/verify/diagnose.hpp"
 #include "bakers/verify/face.hpp"
 #include "bakers/verify/page.hpp"
@@ -80,12 +81,19 @@ class ProductCheck {
             check();
         } catch (const Error& error) {
             result_.verdict = Verdict::unreadable;
-            result_.reasons.assign(1, error.what());
+            result_.reasons.assign(1, reason_of(error));
         }
         return std::move(result_);
     }
 
   private:
+    /// A verdict's line begins with the file's name: the error needn't name it again.
+    std::string reason_of(const Error& error) const {
+        if (error.where() == result_.pair.a.string()) return error.message();
+        if (error.where() == result_.pair.b.string()) return "the reference: " + error.message();
+        return error.what();
+    }
+
     void check() {
         const Pair& pair = result_.pair;
         for (const bool is_a : {true, false}) {
@@ -97,7 +105,16 @@ class ProductCheck {
             return;
         }
         identical_ = io::hash_file(pair.a) == io::hash_file(pair.b);
-        if (!holds_pictures(pair.b)) return check_document();
+        if (holds_pictures(pair.b))
+            check_pictures();
+        else
+            check_document();
+        check_certificate();
+        if (!result_.reasons.empty()) result_.verdict = Verdict::differs;
+    }
+
+    void check_pictures() {
+        const Pair& pair = result_.pair;
         a_ = read_product_file(pair.a, pair.entry_a);
         b_ = read_product_file(pair.b, pair.entry_b);
         result_.channels = b_.image.channels;
@@ -107,7 +124,19 @@ class ProductCheck {
             bring_to_one_scale();
             check_values();
         }
-        if (!result_.reasons.empty()) result_.verdict = Verdict::differs;
+    }
+
+    /// Of a bake's files the first speaks for all.
+    void check_certificate() {
+        const Pair& pair = result_.pair;
+        const bool is_first = pair.entry_b.is_object() && pair.entry_b.contains("outputs") &&
+                              !pair.entry_b["outputs"].empty() &&
+                              pair.entry_b["outputs"][0].value("path", "") == pair.b.filename().string();
+        if (!is_first) return;
+        if (const std::string found =
+                certificate_difference(pair.entry_a, pair.entry_b, thresholds_.max_certificate_change);
+            !found.empty())
+            result_.reasons.push_back(found);
     }
 
     static std::string extension(const fs::path& file) {
@@ -132,7 +161,6 @@ class ProductCheck {
                 !found.empty())
                 result_.reasons.push_back(found);
         }
-        if (!result_.reasons.empty()) result_.verdict = Verdict::differs;
     }
 
     static Json parsed(const std::string& text, const fs::path& file) {

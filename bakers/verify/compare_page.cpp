@@ -145,7 +145,8 @@ std::string flip_html(const ShadedFlip& flip) {
         for (int x = 0; x < map.width; ++x)
             put_false(map, x, y, flip.map.error[static_cast<std::size_t>(y) * map.width + x]);
     const double factor = exposure_of(flip.b);
-    return "<h3>Shaded spheres</h3>\n<p class=soft>White metal spheres of the levels' roughness. HDR-FLIP "
+    return "<h3>Shaded spheres</h3>\n<p class=soft>White metal spheres of the levels' perceptual roughness. "
+           "HDR-FLIP "
            "over "
            "exposures from " +
            number(flip.start_exposure) + " to " + number(flip.stop_exposure) + " stops: mean " +

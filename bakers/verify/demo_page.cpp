@@ -153,7 +153,8 @@ std::string DemoPage::introduction() const {
                strips,
                "The products in use. Metal balls of perceptual roughness 0, 0.2 … 1, shaded by the split "
                "sum: "
-               "probe(reflected direction, roughness) × (f0 · scale + bias), the table giving scale and "
+               "probe(reflected direction, perceptual roughness) × (f0 · scale + bias), the table giving "
+               "scale and "
                "bias. "
                "Above: aluminium, f0 = (0.91, 0.92, 0.92), outdoors at EV100 15. Below: gold, f0 = (1, 0.77, "
                "0.34), indoors at EV100 8. No diffuse light, no shadows, no multiple scattering.",
@@ -232,7 +233,7 @@ std::string DemoPage::balls(const Environment& environment) const {
                        std::to_string(levels) + ",1fr)\"><span></span>";
     for (int level = 0; level < levels; ++level) {
         const Json& facts = environment.best().report->entry["levels"][static_cast<std::size_t>(level)];
-        html += "<span class=head>level " + std::to_string(level) + "<br>roughness " +
+        html += "<span class=head>level " + std::to_string(level) + "<br>perceptual roughness " +
                 plain(facts["perceptual_roughness"].get<double>()) + "</span>";
     }
     for (const Probe& probe : environment.probes) {
@@ -388,7 +389,8 @@ std::string DemoPage::table_section() const {
         work += (work.empty() ? "" : ", ") + escaped(effect) + " " + count(evaluated);
     return "<h2>Table: the DFG term</h2>\n<p>Directional albedo of the GGX lobe and of Disney diffuse, 128 × "
            "128. Row 0 is "
-           "the lowest roughness; texel centers lie at (i + ½) / 128. A material's specular albedo is f0 · "
+           "the lowest perceptual roughness; texel centers lie at (i + ½) / 128. A material's specular "
+           "albedo is f0 · "
            "scale + f90 · "
            "bias.</p>\n<div class=charts>" +
            charts + "</div>\n" + false_colour_scale("0", "highest") + "<h3>Certificate</h3>\n" +

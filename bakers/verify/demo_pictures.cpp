@@ -63,7 +63,7 @@ const std::vector<EnvironmentLook>& environment_looks() {
 
 Picture hero_picture(const EnvironmentLook& look, const BakedImage& probe, const BakedImage& table) {
     const double exposure = exposure_of_ev100(look.ev100);
-    const ProbeLookup lookup(probe.image, probe.scale);
+    const ProbeLookup lookup(probe.image, probe.scale, probe.perceptual_roughness);
     const View view(look.camera);
     return strip_picture(
         {kHeroWidth, kHeroHeight, kHeroBalls, kHeroWidthDeg, view,

@@ -8,11 +8,11 @@
 #include <numbers>
 #include <numeric>
 
+#include "bakers/verify/baked_image.hpp"
 #include "bakers/verify/face.hpp"
 #include "bakers/verify/metrics.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/picture.hpp"
-#include "pbr/brdf/roughness.hpp"
 #include "pbr/ibl/cubemap.hpp"
 
 namespace pbrbake::verify {
@@ -38,6 +38,46 @@ constexpr std::array<const char*, 8> kWays{"as it was",
                                            "turned by 90°",
                                            "turned by 270°",
                                            "u and v swapped and turned by 180°"};
+
+/// The faces of a level of both pictures, those that differ most first.
+class FacePairs {
+  public:
+    FacePairs(const Image& a, const Image& b, int level, const std::vector<double>& typical,
+              int side = kWhole, int margin = 0)
+        : typical_(typical), margin_(margin) {
+        for (int face = 0; face < b.faces; ++face) {
+            Pair pair{window_of(face_of(a, level, face), side), window_of(face_of(b, level, face), side), 0};
+            pair.there = distance(pair.a, pair.b, typical_, margin_);
+            pairs_.push_back(std::move(pair));
+        }
+        std::ranges::stable_sort(pairs_, std::greater<>(), &Pair::there);
+    }
+
+    /// Sum over faces of the distance that `made` (of a face of b) leaves, over the one there is. 1 as soon
+    /// as more than `most` is left: what doesn't explain the faces that differ most is no cause.
+    template <class Made>
+    double remainder(double most, const Made& made) const {
+        if (std::min(pairs_.front().a.width, pairs_.front().a.height) <= 2 * margin_) return 1;
+        double left = 0, there = 0;
+        for (const Pair& pair : pairs_) {
+            there += pair.there;
+            left += distance(pair.a, made(pair.b), typical_, margin_, most * there - left);
+            if (left > most * there) return 1;
+        }
+        return there > 0 ? left / there : 1;
+    }
+
+  private:
+    struct Pair {
+        Face a, b;
+        double there;
+    };
+    static constexpr int kWhole = 1 << 20;
+
+    std::vector<Pair> pairs_;
+    const std::vector<double>& typical_;
+    int margin_;
+};
 
 class Diagnosis {
   public:
@@ -83,19 +123,7 @@ class Diagnosis {
         return sum / b_.faces;
     }
 
-    /// Sum over faces of the distance that `made` (of a face of b) leaves, over the one there is.
-    double remainder(int level, const std::function<Face(const Face&, int)>& made, int margin = 0,
-                     int side = 1 << 20) const {
-        double left = 0, there = 0;
-        for (int face = 0; face < b_.faces; ++face) {
-            const Face a = window_of(face_of(a_, level, face), side),
-                       b = window_of(face_of(b_, level, face), side);
-            if (std::min(a.width, a.height) <= 2 * margin) return 1;
-            there += distance(a, b, typical_, margin);
-            left += distance(a, made(b, face), typical_, margin);
-        }
-        return there > 0 ? left / there : 1;
-    }
+    FacePairs faces() const { return FacePairs(a_, b_, level_, typical_); }
 
     /// a / b over what isn't dark in b, as the median and those near it have it; 1 where there is nothing.
     double ratio(int level, std::size_t channel) const {
@@ -158,12 +186,12 @@ Suspect Diagnosis::factor() const {
     const std::size_t channels = b_.channels.size();
     std::vector<double> factors;
     for (std::size_t c = 0; c < channels; ++c) factors.push_back(ratio(level_, c));
-    const double left = remainder(level_, [&](Face face, int) {
+    const double left = faces().remainder(kRemainder, [&](Face face) {
         for (std::size_t i = 0; i < face.texels.size(); ++i)
             face.texels[i] = static_cast<float>(face.texels[i] * factors[i % channels]);
         return face;
     });
-    if (!(left <= kRemainder)) return {};
+    if (left == 1) return {};
     const auto is_one = [](double f) { return std::abs(f - 1) < 1e-4; };
     std::string which;
     std::size_t shown = 0;
@@ -186,28 +214,31 @@ Suspect Diagnosis::factor() const {
 
 Suspect Diagnosis::gamma() const {
     Suspect best;
+    const FacePairs pairs = faces();
     for (const auto& [power, text] :
          {std::pair{1 / 2.2, "values are display-encoded (a gamma of 2.2)"},
           std::pair{2.2, "values were decoded twice (a gamma of 2.2)"}, std::pair{2.0, "values are squared"},
           std::pair{0.5, "values are square roots"}}) {
-        const double left = remainder(level_, [&, power = power](Face face, int) {
+        const double left = pairs.remainder(kRemainder, [&, power = power](Face face) {
             for (float& value : face.texels)
                 value = static_cast<float>(
                     std::copysign(std::pow(std::abs(value) / product_.scale, power) * product_.scale, value));
             return face;
         });
-        if (left <= kRemainder && left < best.remainder) best = {text, left};
+        if (left < best.remainder) best = {text, left};
     }
     return best;
 }
 
 Suspect Diagnosis::turned_picture() const {
     Suspect best;
+    const FacePairs pairs = faces();
     const bool is_square = b_.levels[static_cast<std::size_t>(level_)].width ==
                            b_.levels[static_cast<std::size_t>(level_)].height;
     for (int way = 1; way < (is_square ? 8 : 4); ++way) {
-        const double left = remainder(level_, [way](const Face& face, int) { return turned(face, way); });
-        if (left <= kRemainder && left < best.remainder)
+        const double left =
+            pairs.remainder(kRemainder, [way](const Face& face) { return turned(face, way); });
+        if (left < best.remainder)
             best = {std::string("the picture is ") + kWays[static_cast<std::size_t>(way)], left};
     }
     return best;
@@ -261,26 +292,30 @@ std::string moved_text(const std::array<FacePlace, 6>& places) {
 }
 
 Suspect Diagnosis::moved_faces() const {
-    std::vector<Face> of_b;
-    for (int face = 0; face < 6; ++face) of_b.push_back(shrunk(face_of(b_, level_, face), kTurnSide));
+    std::array<std::array<Face, 8>, 6> of_b;  // in each way
+    for (int face = 0; face < 6; ++face)
+        for (int way = 0; way < 8; ++way)
+            of_b[static_cast<std::size_t>(face)][static_cast<std::size_t>(way)] =
+                turned(shrunk(face_of(b_, level_, face), kTurnSide), way);
     std::array<FacePlace, 6> places;
     double left = 0, there = 0;
     for (int face = 0; face < 6; ++face) {
         const Face a = shrunk(face_of(a_, level_, face), kTurnSide);
-        const double own = distance(a, of_b[static_cast<std::size_t>(face)], typical_);
+        const double own = distance(a, of_b[static_cast<std::size_t>(face)][0], typical_);
         FacePlace& best = places[static_cast<std::size_t>(face)];
         best = {face, 0};
-        double least = own;
+        double least = kRemainder * own;  // another place must explain it, not just suit it better by chance
         for (int source = 0; source < 6; ++source)
             for (int way = 0; way < 8; ++way) {
-                const double d = distance(a, turned(of_b[static_cast<std::size_t>(source)], way), typical_);
-                // Another place must explain the face, not just suit it better by chance.
-                if (d >= least || d >= kRemainder * own) continue;
+                const double d =
+                    distance(a, of_b[static_cast<std::size_t>(source)][static_cast<std::size_t>(way)],
+                             typical_, 0, least);
+                if (d >= least) continue;
                 least = d;
                 best = {source, way};
             }
         there += own;
-        left += least;
+        left += best.is_own(face) ? own : least;
     }
     if (there == 0 || left > kRemainder * there) return {};
     return {moved_text(places), left / there};
@@ -288,21 +323,19 @@ Suspect Diagnosis::moved_faces() const {
 
 Suspect Diagnosis::shift() const {
     Suspect best;
+    const FacePairs windows(a_, b_, level_, typical_, kShiftSide, 1);
     for (int dy = -2; dy <= 2; ++dy)
         for (int dx = -2; dx <= 2; ++dx) {
             if (dx == 0 && dy == 0) continue;
-            const double left = remainder(
-                level_,
-                [&](const Face& face, int) {
-                    Face moved = face;
-                    for (int y = 0; y < face.height; ++y)
-                        for (int x = 0; x < face.width; ++x)
-                            for (int c = 0; c < face.channels; ++c)
-                                moved.at(x, y, c) = face.between(x + 0.5 * dx, y + 0.5 * dy, c);
-                    return moved;
-                },
-                1, kShiftSide);
-            if (left > kRemainderResampled || left >= best.remainder) continue;
+            const double left = windows.remainder(kRemainderResampled, [&](const Face& face) {
+                Face moved = face;
+                for (int y = 0; y < face.height; ++y)
+                    for (int x = 0; x < face.width; ++x)
+                        for (int c = 0; c < face.channels; ++c)
+                            moved.at(x, y, c) = face.between(x + 0.5 * dx, y + 0.5 * dy, c);
+                return moved;
+            });
+            if (left >= best.remainder) continue;
             const auto along = [](int halves, const char* axis) {
                 if (halves == 0) return std::string();
                 return std::string(halves < 0 ? "+" : "-") + (std::abs(halves) == 1 ? "1/2" : "1") + " in " +
@@ -313,8 +346,9 @@ Suspect Diagnosis::shift() const {
                         (std::max(std::abs(dx), std::abs(dy)) == 1 ? " (half a texel)" : ""),
                     left};
         }
+    const FacePairs pairs = faces();
     for (const bool to_centres : {true, false}) {
-        const double left = remainder(level_, [&](const Face& face, int) {
+        const double left = pairs.remainder(kRemainderResampled, [&](const Face& face) {
             Face aligned = face;
             const auto from = [&](int i, int n) {
                 return to_centres ? (i + 0.5) / n * (n - 1)
@@ -326,7 +360,7 @@ Suspect Diagnosis::shift() const {
                         aligned.at(x, y, c) = face.between(from(x, face.width), from(y, face.height), c);
             return aligned;
         });
-        if (left <= kRemainderResampled && left < best.remainder)
+        if (left < best.remainder)
             best = {to_centres ? "texels are aligned to centres where the reference's are to ends (off by "
                                  "half a texel at the ends)"
                                : "texels are aligned to ends where the reference's are to centres (off by "
@@ -345,8 +379,9 @@ Suspect Diagnosis::table_roughness() const {
     const Json layout = product_.record.is_object() ? product_.record.value("layout", Json()) : Json();
     const bool flipped = layout.is_object() && layout.value("flip_rows", false);
     const bool centred = layout.is_object() && layout.value("align", "ends") == "center";
+    const FacePairs pairs = faces();
     for (const auto& [squared, text] : kRoughnessMistakes) {
-        const double left = remainder(level_, [&, is_squared = squared](const Face& face, int) {
+        const double left = pairs.remainder(kRemainderResampled, [&, is_squared = squared](const Face& face) {
             Face remapped = face;
             const double n = face.height;
             for (int row = 0; row < face.height; ++row) {
@@ -360,7 +395,7 @@ Suspect Diagnosis::table_roughness() const {
             }
             return remapped;
         });
-        if (left <= kRemainderResampled && left < best.remainder) best = {text, left};
+        if (left < best.remainder) best = {text, left};
     }
     return best;
 }
@@ -369,13 +404,14 @@ Suspect Diagnosis::probe_roughness() const {
     constexpr int kLargestSide = 64;  // of levels looked at
     const int levels = static_cast<int>(b_.levels.size());
     if (levels < 3 || b_.channels.size() != 3) return {};
-    const ProbeLookup lookup(b_, 1);
+    const std::vector<double> of_levels = perceptual_roughness_of_levels(product_.record, b_.levels.size());
+    const ProbeLookup lookup(b_, 1, of_levels);
     double there = 0;
     std::array<double, 2> left{};
     for (int level = 1; level + 1 < levels; ++level) {  // the mirror and alpha = 1 are their own squares
         const int n = b_.levels[static_cast<std::size_t>(level)].width;
         if (n > kLargestSide) continue;
-        const double p = pbr::perceptual_roughness_from_level(level, levels);
+        const double p = of_levels[static_cast<std::size_t>(level)];
         for (int face = 0; face < 6; ++face) {
             const Face a = face_of(a_, level, face);
             there += distance(a, face_of(b_, level, face), typical_);

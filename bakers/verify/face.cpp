@@ -48,19 +48,20 @@ Face window_of(const Face& face, int side) {
     return window;
 }
 
-double distance(const Face& a, const Face& b, const std::vector<double>& typical, int margin) {
+double distance(const Face& a, const Face& b, const std::vector<double>& typical, int margin, double enough) {
+    const int width = a.width - 2 * margin, height = a.height - 2 * margin;
+    if (width <= 0 || height <= 0) return 0;
+    const double count = static_cast<double>(width) * height * a.channels;
     double sum = 0;
-    std::size_t count = 0;
-    for (int y = margin; y < a.height - margin; ++y)
-        for (int x = margin; x < a.width - margin; ++x)
+    for (int y = margin; y < margin + height && sum <= enough * count; ++y)
+        for (int x = margin; x < margin + width; ++x)
             for (int c = 0; c < a.channels; ++c) {
                 const double va = a.at(x, y, c), vb = b.at(x, y, c);
                 const double size =
                     std::max({std::abs(va), std::abs(vb), typical[static_cast<std::size_t>(c)]});
-                ++count;
                 if (std::isfinite(va) && std::isfinite(vb) && size > 0) sum += std::abs(va - vb) / size;
             }
-    return count ? sum / static_cast<double>(count) : 0;
+    return sum / count;
 }
 
 Face turned(const Face& face, int way) {

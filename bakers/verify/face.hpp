@@ -2,6 +2,7 @@
 // One face of a level in memory: what differences are looked for in.
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "bakers/image.hpp"
@@ -39,7 +40,8 @@ Face turned(const Face& face, int way);
 
 /// Mean over values of |a - b| / max(|a|, |b|, typical of the channel): 0 for equal faces, at most 2. One
 /// bright texel is one texel. `margin` texels along the edges are left out; values that aren't finite count
-/// as equal.
-double distance(const Face& a, const Face& b, const std::vector<double>& typical, int margin = 0);
+/// as equal. Ends early once it is known to be above `enough`, with a value above it.
+double distance(const Face& a, const Face& b, const std::vector<double>& typical, int margin = 0,
+                double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace pbrbake::verify

@@ -155,18 +155,19 @@ Radiance radiance_of_level(const Image& cube, int level, double scale) {
     return [faces, scale](const glm::dvec3& direction) { return (*faces)(direction) / scale; };
 }
 
-ProbeLookup::ProbeLookup(const Image& cube, double scale) {
+ProbeLookup::ProbeLookup(const Image& cube, double scale, std::vector<double> perceptual_roughness)
+    : perceptual_roughness_(std::move(perceptual_roughness)) {
     for (int level = 0; level < static_cast<int>(cube.levels.size()); ++level)
         levels_.push_back(radiance_of_level(cube, level, scale));
 }
 
 glm::dvec3 ProbeLookup::operator()(const glm::dvec3& direction, double perceptual_roughness) const {
-    const int count = static_cast<int>(levels_.size());
-    const double at = pbr::level_from_perceptual_roughness(std::clamp(perceptual_roughness, 0.0, 1.0), count);
-    const auto lower = static_cast<std::size_t>(at), upper = std::min(lower + 1, levels_.size() - 1);
-    const double t = at - static_cast<double>(lower);
-    if (t == 0) return levels_[lower](direction);
-    return levels_[lower](direction) * (1 - t) + levels_[upper](direction) * t;
+    const std::vector<double>& of = perceptual_roughness_;
+    const double sought = std::clamp(perceptual_roughness, of.front(), of.back());
+    const auto lower = static_cast<std::size_t>(std::ranges::upper_bound(of, sought) - of.begin()) - 1;
+    if (of[lower] == sought) return levels_[lower](direction);
+    const double t = (sought - of[lower]) / (of[lower + 1] - of[lower]);
+    return levels_[lower](direction) * (1 - t) + levels_[lower + 1](direction) * t;
 }
 
 Picture cross_picture(const Image& cube, int level, double factor,

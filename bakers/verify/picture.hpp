@@ -54,14 +54,16 @@ using Radiance = std::function<glm::dvec3(const glm::dvec3& direction)>;
 /// divided by `scale`.
 Radiance radiance_of_level(const Image& cube, int level, double scale);
 
-/// Between levels as a shader's trilinear lookup reads it: level = (levels - 1) * perceptual_roughness.
+/// Between levels as a shader's trilinear lookup reads it. `perceptual_roughness` is that of each level,
+/// strictly rising. Between levels linear, beyond their ends clamped.
 class ProbeLookup {
   public:
-    ProbeLookup(const Image& cube, double scale);
+    ProbeLookup(const Image& cube, double scale, std::vector<double> perceptual_roughness);
     glm::dvec3 operator()(const glm::dvec3& direction, double perceptual_roughness) const;
 
   private:
     std::vector<Radiance> levels_;
+    std::vector<double> perceptual_roughness_;  ///< of each level
 };
 
 /// One level unfolded: 4n x 3n, +Y and -Y above and below +Z, as drawn in libpbr's ibl/cubemap.hpp; what no

@@ -6,7 +6,6 @@
 namespace pbrbake::verify {
 namespace {
 
-constexpr double kMissing = -1;
 constexpr int kMostInOneGo = 1 << 20;
 
 double middle(const std::vector<double>& sorted) {
@@ -36,7 +35,7 @@ int binomial_rank(int n) {
 class Rounds {
   public:
     Rounds(std::span<const RepeatTask> tasks, const RepeatLimits& limits)
-        : tasks_(tasks), limits_(limits), seconds_(tasks.size()), times_(tasks.size(), 1) {
+        : tasks_(tasks), limits_(limits), measured_(tasks.size()), times_(tasks.size(), 1) {
         for (std::size_t i = 0; i < tasks_.size(); ++i) {
             const double once = tasks_[i].cost(1);
             if (once < limits_.least_s)
@@ -45,52 +44,79 @@ class Rounds {
         }
     }
 
-    /// Measures every task that is wanted; returns how many are not.
+    /// Measures every task that isn't known; returns how many are.
     std::size_t add() {
-        const std::vector<bool> wanted = this->wanted();
-        for (std::vector<double>& of_task : seconds_) of_task.push_back(kMissing);
-        const std::size_t round = seconds_.empty() ? 0 : seconds_[0].size() - 1;
-        for (std::size_t k = 0; k < tasks_.size(); ++k) {
-            const std::size_t i = round % 2 ? tasks_.size() - 1 - k : k;
-            if (wanted[i]) seconds_[i].back() = tasks_[i].cost(times_[i]);
+        std::vector<std::size_t> order;
+        for (std::size_t i = 0; i < tasks_.size(); ++i)
+            if (!is_known(i)) order.push_back(i);
+        if (round_++ % 2) std::ranges::reverse(order);
+        // Together with those of the same base: a stretch of its own for each.
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return tasks_[i].base; });
+        for (std::size_t k = 0; k < order.size();) {
+            std::size_t end = k;
+            while (end < order.size() && tasks_[order[end]].base == tasks_[order[k]].base) ++end;
+            measure_group(tasks_[order[k]].base, std::span(order).subspan(k, end - k));
+            k = end;
         }
-        return static_cast<std::size_t>(std::ranges::count_if(seconds_, [&](const std::vector<double>& of) {
-            return is_known(static_cast<std::size_t>(&of - seconds_.data()));
-        }));
+        std::size_t known = 0;
+        for (std::size_t i = 0; i < tasks_.size(); ++i) known += is_known(i);
+        return known;
     }
 
     Timing timing(std::size_t task) const {
-        std::vector<double> seconds, ratios;
-        const std::vector<double>&mine = seconds_[task], &base = seconds_[tasks_[task].base];
-        for (std::size_t round = 0; round < mine.size(); ++round) {
-            if (mine[round] == kMissing) continue;
-            seconds.push_back(mine[round]);
-            if (base[round] > 0) ratios.push_back(mine[round] / base[round]);
-        }
-        return {median_of(std::move(seconds)), median_of(std::move(ratios))};
+        return {median_of(measured_[task].seconds), median_of(measured_[task].ratios)};
     }
 
   private:
+    struct Measured {
+        std::vector<double> seconds, ratios;
+    };
+
+    /// The base before, after, and among the others as often as they have taken some times its own time.
+    void measure_group(std::size_t base, std::span<const std::size_t> group) {
+        double before = measured_base(base), since = 0;
+        std::vector<std::pair<std::size_t, double>> stretch;
+        const auto close = [&] {
+            const double after = measured_base(base);
+            for (const auto& [task, seconds] : stretch)
+                if (before + after > 0) measured_[task].ratios.push_back(2 * seconds / (before + after));
+            stretch.clear();
+            before = after;
+            since = 0;
+        };
+        for (const std::size_t task : group) {
+            if (task == base) continue;
+            const double seconds = tasks_[task].cost(times_[task]);
+            measured_[task].seconds.push_back(seconds);
+            stretch.emplace_back(task, seconds);
+            since += seconds * times_[task];
+            if (since >= std::max(kLongestStretch_s, kBaseShare * before * times_[base])) close();
+        }
+        if (!stretch.empty()) close();
+    }
+
+    double measured_base(std::size_t base) {
+        const double seconds = tasks_[base].cost(times_[base]);
+        measured_[base].seconds.push_back(seconds);
+        measured_[base].ratios.push_back(1);
+        return seconds;
+    }
+
     bool is_known(std::size_t task) const {
-        if (static_cast<int>(std::ranges::count_if(seconds_[task], [](double s) { return s != kMissing; })) <
-            limits_.fewest)
-            return false;
+        if (static_cast<int>(measured_[task].seconds.size()) < limits_.fewest) return false;
         const Timing now = timing(task);
         return now.seconds.known_to() <= limits_.known_to &&
                (tasks_[task].base == task || now.ratio.known_to() <= limits_.ratio_known_to);
     }
 
-    std::vector<bool> wanted() const {
-        std::vector<bool> wanted(tasks_.size(), false);
-        for (std::size_t i = 0; i < tasks_.size(); ++i)
-            if (!is_known(i)) wanted[i] = wanted[tasks_[i].base] = true;
-        return wanted;
-    }
+    /// A base is measured again after that many seconds, but takes no more than a share of the whole.
+    static constexpr double kLongestStretch_s = .1, kBaseShare = 4;
 
     std::span<const RepeatTask> tasks_;
     const RepeatLimits& limits_;
-    std::vector<std::vector<double>> seconds_;  ///< task by round; kMissing where left out
+    std::vector<Measured> measured_;  ///< by task
     std::vector<int> times_;
+    int round_ = 0;
 };
 
 }  // namespace

@@ -2,8 +2,8 @@
 // Times that are known: measured again and again, in turn, until their medians stand.
 //
 // A processor's speed drifts, and other work comes and goes. So every round measures all tasks once, every
-// other round in the opposite order, and a ratio of two tasks is the median of the ratios of each round, in
-// which both saw much the same machine.
+// other round in the opposite order, and a task's base right before and after it: a ratio is to the mean of
+// both, and the median of those of all rounds is what is told.
 
 #include <cstddef>
 #include <functional>
@@ -46,7 +46,7 @@ struct RepeatLimits {
 
 struct Timing {
     Median seconds;
-    Median ratio;  ///< to the base, a round at a time
+    Median ratio;  ///< to the base as measured beside it, a round at a time
 };
 
 /// Is told after every round: rounds done, tasks known, seconds gone.

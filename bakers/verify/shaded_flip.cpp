@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "bakers/verify/picture.hpp"
-#include "pbr/brdf/roughness.hpp"
 
 namespace pbrbake::verify {
 namespace {
@@ -17,17 +16,14 @@ constexpr double kMostStops = 16;
 /// right.
 LinearPicture spheres(const Image& probe, double scale, int size) {
     const int count = static_cast<int>(probe.levels.size());
-    const ProbeLookup lookup(probe, scale);
     const View view({-0.5, -0.2, -1});
     LinearPicture picture(size * count, size);
     for (int sphere = 0; sphere < count; ++sphere) {
-        const double perceptual_roughness =
-            count > 1 ? pbr::perceptual_roughness_from_level(sphere, count) : 0.0;
+        const Radiance radiance = radiance_of_level(probe, sphere, scale);
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x)
                 picture.at(sphere * size + x, y) =
-                    lookup(reflected_at(view, (2 * x + 1.0) / size - 1, 1 - (2 * y + 1.0) / size),
-                           perceptual_roughness);
+                    radiance(reflected_at(view, (2 * x + 1.0) / size - 1, 1 - (2 * y + 1.0) / size));
     }
     return picture;
 }

@@ -16,9 +16,9 @@ struct ShadedFlip {
     FlipMap map;
 };
 
-/// HDR-FLIP of a row of white metal spheres before black, one for each perceptual roughness of a level of b,
-/// reflecting probe `a` and the reference `b` (both of b's scale, R G B, faces 6). Exposures are pinned, or
-/// found from b. Smaller probes make smaller spheres.
+/// HDR-FLIP of a row of white metal spheres before black, one for each level, of its
+/// perceptual roughness, reflecting probe `a` and the reference `b` (both of b's scale, R G B, faces 6).
+/// Exposures are pinned, or found from b. Smaller probes make smaller spheres.
 ShadedFlip shaded_flip(const Image& a, const Image& b, double scale,
                        std::optional<std::pair<double, double>> exposures);
 

@@ -56,7 +56,7 @@ ShadedScene plane_scene(int width, int height, const glm::dvec3& towards) {
 
 ShadedTruth::ShadedTruth(const Level& environment, const BakedImage& probe, const BakedImage& table)
     : blocks_(pbr::EquirectView{environment.texels.data(), environment.width, environment.height}),
-      probe_(probe.image, probe.scale),
+      probe_(probe.image, probe.scale, probe.perceptual_roughness),
       table_(table) {}
 
 glm::dvec3 ShadedTruth::radiance(Shading shading, const pbr::Surface<double>& surface,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bakers/registry.hpp"
+#include "bakers/verify/display_transform.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/shaded_truth.hpp"
 
@@ -40,14 +41,22 @@ std::string image_html(const Picture& picture, const std::string& alt) {
            " src=\"" + data_uri(picture) + "\">";
 }
 
-/// The camera's picture: exposure by EV100, sRGB.
-Picture exposed(const LinearPicture& linear, const ShadedScene& scene, double exposure) {
-    Picture picture(linear.width, linear.height);
+/// What lies behind a scene.
+const glm::dvec3 kBackground(0.2);
+
+LinearPicture exposed(LinearPicture linear, double exposure) {
+    for (glm::dvec3& rgb : linear.rgb) rgb *= exposure;
+    return linear;
+}
+
+/// The camera's picture before a plain background.
+Picture seen(const LinearPicture& linear, const ShadedScene& scene, double exposure,
+             const DisplayTransform& display) {
+    Picture picture = display(exposed(linear, exposure));
     for (int y = 0; y < linear.height; ++y)
         for (int x = 0; x < linear.width; ++x)
-            put(picture, x, y,
-                scene.points[static_cast<std::size_t>(y) * linear.width + x] ? exposure * linear.at(x, y)
-                                                                             : glm::dvec3(0.2));
+            if (!scene.points[static_cast<std::size_t>(y) * linear.width + x])
+                put(picture, x, y, kBackground);
     return picture;
 }
 
@@ -57,7 +66,7 @@ Picture error_picture(const LinearPicture& a, const LinearPicture& exact, const 
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
             if (!scene.points[static_cast<std::size_t>(y) * a.width + x]) {
-                put(picture, x, y, glm::dvec3(0.2));
+                put(picture, x, y, kBackground);
                 continue;
             }
             double worst = 0;
@@ -109,21 +118,20 @@ class ShadingPage {
                "Frostbite's dominant direction.</p>\n<p>" +
                look_.title + ": " + look_.description +
                " Here by means over 8 × 8 texels, for the exact integral as for the probe. Camera at EV100 " +
-               number(look_.ev100) + ", exposed by saturation, sRGB.</p>\n";
+               number(look_.ev100) + ", exposed by saturation; pictures go through " + display_.name() +
+               ". FLIP is of the exposed values before that.</p>\n";
     }
 
     Shaded shaded(const Material& material, double perceptual_roughness, const ShadedScene& scene) const {
         const pbr::Surface<double> surface = surface_of(material, perceptual_roughness);
         Shaded result{perceptual_roughness, {}, {}, {}};
-        const auto as_seen = [&](LinearPicture picture) {
-            for (glm::dvec3& rgb : picture.rgb) rgb *= exposure_of_ev100(look_.ev100);
-            return picture;
-        };
+        const double exposure = exposure_of_ev100(look_.ev100);
         for (const Shading shading : {Shading::exact, Shading::split_sum, Shading::split_sum_dominant}) {
             result.pictures.push_back(truth_.render(shading, surface, scene, study_.threads));
             result.errors.push_back(shading_errors(result.pictures.back(), result.pictures.front(), scene));
-            result.flip.push_back(
-                ldr_flip(as_seen(result.pictures.front()), as_seen(result.pictures.back())).mean());
+            result.flip.push_back(ldr_flip(exposed(result.pictures.front(), exposure),
+                                           exposed(result.pictures.back(), exposure))
+                                      .mean());
         }
         return result;
     }
@@ -144,11 +152,12 @@ class ShadingPage {
         std::string html = "<div class=wide><div class=balls style=\"grid-template-columns:108px repeat(" +
                            std::to_string(all.size()) + ",1fr)\"><span></span>";
         for (const Shaded& shaded : all)
-            html += "<span class=head>roughness " + number(shaded.perceptual_roughness) + "</span>";
+            html +=
+                "<span class=head>perceptual roughness " + number(shaded.perceptual_roughness) + "</span>";
         for (std::size_t i = 0; i < kShadingNames.size(); ++i) {
             html += "<span class=row><b>" + std::string(kTitles[i]) + "</b></span>";
             for (const Shaded& shaded : all)
-                html += image_html(exposed(shaded.pictures[i], scene, exposure), kTitles[i]);
+                html += image_html(seen(shaded.pictures[i], scene, exposure, display_), kTitles[i]);
         }
         for (std::size_t i = 1; i < kShadingNames.size(); ++i) {
             html += "<span class=row><b>error</b>" + std::string(kTitles[i]) + "</span>";
@@ -161,8 +170,8 @@ class ShadingPage {
     }
 
     static std::string table(const std::vector<Shaded>& all) {
-        Table table({"roughness", "shading", "NoV below .1", ".1 to .3", ".3 to .6", "above .6", "all",
-                     "bias, all", "FLIP"});
+        Table table({"perceptual roughness", "shading", "NoV below .1", ".1 to .3", ".3 to .6", "above .6",
+                     "all", "bias, all", "FLIP"});
         table.set_text(1);
         for (const Shaded& shaded : all)
             for (std::size_t i = 1; i < kShadingNames.size(); ++i) {
@@ -222,6 +231,7 @@ class ShadingPage {
     const ShadingStudy& study_;
     const EnvironmentLook& look_;
     ShadedTruth truth_;
+    DisplayTransform display_;
 };
 
 }  // namespace

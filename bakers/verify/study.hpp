@@ -55,7 +55,8 @@ struct StudyCase {
 /// The size of a study.
 enum class Depth { quick, full };
 
-/// The built-in suite. Photometric files that it needs are written into `folder`, which must exist.
+/// The built-in suite. Files that it needs, photometric ones and legacy sets, are written into `folder`,
+/// which must exist.
 std::vector<StudyCase> suite_cases(Depth depth, const std::filesystem::path& folder);
 
 /// A case for every bake of a job file, its dials found in the schema. Throws what job::load throws.
@@ -95,9 +96,11 @@ struct Study {
     double wall_s = 0;
 };
 
-/// Is given every setting's product, as stored, with the reference's where there is one.
-using StudyInspector = std::function<void(const StudiedCase& so_far, const StudyPoint& point,
-                                          const BakedImage& product, const BakedImage* reference)>;
+/// Is given every setting's product, as stored, with the reference's where there is one. The image of a
+/// product without pictures is empty; `files` are what the bake wrote, there until the inspector returns.
+using StudyInspector =
+    std::function<void(const StudiedCase& so_far, const StudyPoint& point, const BakedImage& product,
+                       const BakedImage* reference, const std::vector<std::filesystem::path>& files)>;
 
 struct StudyOptions {
     std::filesystem::path folder;  ///< for products and sources while the study runs

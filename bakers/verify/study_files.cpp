@@ -35,7 +35,7 @@ Json point_json(const StudiedCase& studied, std::size_t index) {
     const StudyPoint& point = studied.points[index];
     Json json{{"series", studied.asked.series[point.series].name},
               {"step", point.step.label},
-              {"overrides", point.step.overrides}};
+              {"overrides", without_folders(point.step.overrides)}};
     if (!point.step.note.empty()) json["note"] = point.step.note;
     if (!point.failure.empty()) {
         json["failure"] = point.failure;

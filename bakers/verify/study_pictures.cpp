@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "bakers/job/json_text.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/picture.hpp"
 #include "pbr/brdf/roughness.hpp"
@@ -14,7 +15,7 @@
 namespace pbrbake::verify {
 namespace {
 
-constexpr int kCrossFace = 16, kBall = 64, kFlat = 64;
+constexpr int kCrossFace = 16, kBall = 64, kFlat = 64, kSphere = 88;
 constexpr std::size_t kMostSteps = 5;
 constexpr double kBallPerceptualRoughness = 1. / 3;
 constexpr double kLeastDifference = 1e-3, kMostDifference = 1;
@@ -85,7 +86,7 @@ Picture shaded_ball(const BakedImage& probe, double exposure) {
         }
         return list;
     }();
-    const ProbeLookup lookup(probe.image, probe.scale);
+    const ProbeLookup lookup(probe.image, probe.scale, probe.perceptual_roughness);
     const View view({-0.6, -0.1, -0.8});
     return ball_picture(kBall, view, [&](const glm::dvec3& normal, const glm::dvec3& reflected) {
         const double NoV = std::clamp(-glm::dot(normal, view.forward), 0.0, 1.0);
@@ -130,6 +131,13 @@ bool is_shown(std::size_t step, std::size_t steps) {
     return false;
 }
 
+/// The suite's set that a case converts; null for others.
+const LegacySet* legacy_set_of(const StudyCase& asked) {
+    for (const LegacySet& set : legacy_sets())
+        if (asked.name == std::string("texture_") + set.name) return &set;
+    return nullptr;
+}
+
 std::size_t step_of(const StudiedCase& studied, std::size_t point) {
     std::size_t before = 0;
     for (std::size_t i = 0; i < point; ++i)
@@ -140,11 +148,18 @@ std::size_t step_of(const StudiedCase& studied, std::size_t point) {
 }  // namespace
 
 void PictureBook::take(const StudiedCase& studied, const StudyPoint& point, const BakedImage& product,
-                       const BakedImage* reference) {
+                       const BakedImage* reference, const std::vector<std::filesystem::path>& files) {
     const std::size_t index = studied.points.size() - 1;
     if (!is_shown(step_of(studied, index), studied.asked.series[point.series].steps.size())) return;
     const Key key{studied.asked.name, index};
-    if (product.image.is_cube() && reference) {
+    const LegacySet* set = legacy_set_of(studied.asked);
+    if (product.image.levels.empty()) {
+        const std::string curve =
+            light_curve_svg(job::parse_json(job::read_text(files.front()), files.front().string()));
+        if (!curve.empty()) keep(key, {{curve, "stops over distance"}});
+    } else if (set && !reference) {
+        keep(key, before_and_after(*set, files));
+    } else if (product.image.is_cube() && reference) {
         const int level = shown_level(reference->image);
         const double exposure = exposure_of(*reference, level);
         keep(key, {{image(cross_picture(product.image, level, exposure / product.scale, kAround), 2,
@@ -159,10 +174,23 @@ void PictureBook::take(const StudiedCase& studied, const StudyPoint& point, cons
     }
 }
 
+std::vector<PictureBook::Tile> PictureBook::before_and_after(
+    const LegacySet& set, const std::vector<std::filesystem::path>& files) {
+    auto found = legacy_spheres_.find(set.name);
+    if (found == legacy_spheres_.end())
+        found = legacy_spheres_.emplace(set.name, legacy_sphere(set, kSphere)).first;
+    const LinearPicture &before = found->second, after = converted_sphere(files, kSphere);
+    if (after.rgb.empty()) return {};
+    return {{image(seen_in_room(before), 1, "legacy"), "before"},
+            {image(seen_in_room(after), 1, "converted"), "after"},
+            {image(sphere_difference(after, before), 1, "difference"), "difference"},
+            {"<small>FLIP " + number(sphere_flip(after, before)) + "</small>", ""}};
+}
+
 void PictureBook::keep(const Key& key, std::vector<Tile> tiles) {
     std::size_t size = 0;
     for (const Tile& tile : tiles) size += tile.picture.size();
-    if (bytes_ + size > most_bytes_) return;
+    if (tiles.empty() || bytes_ + size > most_bytes_) return;
     bytes_ += size;
     tiles_[key] = std::move(tiles);
 }

@@ -136,8 +136,20 @@ std::string point_table(const StudiedCase& studied) {
 std::string pictures_html(const StudiedCase& studied, const PictureBook& pictures) {
     const std::string html = pictures.html(studied);
     if (html.empty()) return "";
+    const std::string kind = studied.asked.bake["kind"].get<std::string>();
     const std::string words =
-        studied.asked.reference
+        kind == "light" ? "Illuminance in stops over distance, both logarithmic: broad the source's law, "
+                          "blue the light that "
+                          "was fitted; below, red, their difference."
+        : kind == "texture" && !studied.asked.reference
+            ? "A sphere in the built-in room: as the old renderer shades the maps; as the converted ones are "
+              "shaded "
+              "(Lambert and GGX, scattered once); their difference in luminance over the mean, from dark "
+              "(0.1 % and "
+              "less) to light (100 %), and the mean LDR-FLIP. Both sum over the same 64 × 32 lights, so that "
+              "lobes "
+              "alone differ. sRGB."
+        : kind == "probe" && studied.asked.reference
             ? "Each step: a filtered level unfolded; its difference from the reference, over the mean, from "
               "dark "
               "(0.1 % and less) to light (100 %); an aluminium ball of perceptual roughness 1/3 by the split "

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "bakers/formats.hpp"
 #include "bakers/run/bake_one.hpp"
 #include "bakers/verify/study.hpp"
 #include "bakers/verify/study_job.hpp"
@@ -37,6 +38,14 @@ std::uint64_t sum_of(const std::map<std::string, std::uint64_t>& counts) {
     std::uint64_t sum = 0;
     for (const auto& [effect, count] : counts) sum += count;
     return sum;
+}
+
+/// By the paths that a bake reads.
+using DecodedInputs = std::map<std::vector<std::string>, std::shared_ptr<const Inputs>>;
+
+bool holds_pictures(const fs::path& file) {
+    const Format* format = find_format(file.extension().string().substr(1));
+    return format && !format->is_document();
 }
 
 /// A setting that is baked: what it takes to time it again.
@@ -111,7 +120,7 @@ class StudyRun {
         const double start = wall_seconds();
         std::optional<BakedImage> reference;
         if (studied.asked.reference) reference = bake_reference(studied);
-        std::shared_ptr<const Inputs> inputs;
+        DecodedInputs inputs;
         for (std::size_t s = 0; s < studied.asked.series.size(); ++s)
             for (std::size_t k = 0; k < studied.asked.series[s].steps.size(); ++k) {
                 if (s == studied.asked.base_series && k == studied.asked.base_step)
@@ -125,12 +134,14 @@ class StudyRun {
         if (!studied.points[studied.base].failure.empty())
             throw Error(ExitCode::mixed_failures, studied.asked.title,
                         "what ratios are to can't be baked: " + studied.points[studied.base].failure);
-        tell(studied.asked.title + ": " + std::to_string(studied.points.size()) + " settings baked in " +
+        const std::string of = std::to_string(index + 1) + " of " + std::to_string(study_.cases.size()) +
+                               ", " + studied.asked.name;
+        tell(of + ": " + std::to_string(studied.points.size()) + " settings baked in " +
              std::to_string(std::lround(wall_seconds() - start)) + " s");
     }
 
     void bake_point(std::size_t index, std::size_t number, const std::optional<BakedImage>& reference,
-                    std::shared_ptr<const Inputs>& inputs) {
+                    DecodedInputs& inputs) {
         StudiedCase& studied = study_.cases[index];
         StudyPoint& point = studied.points[number];
         try {
@@ -139,19 +150,27 @@ class StudyRun {
             bake["certify"] = !reference ? "full" : states_error ? "sampled" : "none";
             Timed timed{single_bake_job(studied.asked.around, std::move(bake),
                                         studied.asked.name + "_" + std::to_string(number), options_.folder),
-                        inputs, index, number};
+                        nullptr, index, number};
             const run::BakeReport report = baked(timed.job);
             if (report.status == run::Status::failed) throw Error(report.code, "", report.error);
             measure(studied, point, report, reference);
             remove_files(report);
-            if (!inputs)
-                inputs = std::make_shared<const Inputs>(
-                    run::decoded_inputs(timed.job, timed.job.bakes.front(), run_options(options_.threads)));
-            timed.inputs = inputs;
+            timed.inputs = decoded(timed.job, inputs);
             timed_.push_back(std::move(timed));
         } catch (const Error& error) {
             point.failure = error.what();
         }
+    }
+
+    /// What a bake reads; settings of a case that read the same share it.
+    std::shared_ptr<const Inputs> decoded(const job::Job& job, DecodedInputs& inputs) const {
+        std::vector<std::string> read;
+        for (const job::Source& source : job.bakes.front().sources) read.push_back(source.read.path);
+        std::shared_ptr<const Inputs>& found = inputs[read];
+        if (!found)
+            found = std::make_shared<const Inputs>(
+                run::decoded_inputs(job, job.bakes.front(), run_options(options_.threads)));
+        return found;
     }
 
     void measure(StudiedCase& studied, StudyPoint& point, const run::BakeReport& report,
@@ -161,9 +180,9 @@ class StudyRun {
         point.evaluations = sum_of(report.bake_evaluations);
         for (const Json& output : report.entry["outputs"])
             point.bytes += output["bytes"].get<std::uint64_t>();
-        const BakedImage product = read_baked(report);
+        const BakedImage product = holds_pictures(report.writes.front()) ? read_baked(report) : BakedImage{};
         if (reference) {
-            const WorstLevel worst = worst_level(product, *reference);
+            const WorstLevel worst = worst_level(at_size_of(*reference, product), *reference);
             point.error = worst.relative_rmse;
             point.level = worst.level;
         } else {
@@ -171,7 +190,15 @@ class StudyRun {
         }
         if (const auto free = point.figures.find(studied.asked.free_figure); free != point.figures.end())
             studied.free_error = free->second;
-        if (options_.inspect) options_.inspect(studied, point, product, reference ? &*reference : nullptr);
+        if (options_.inspect)
+            options_.inspect(studied, point, product, reference ? &*reference : nullptr, report.writes);
+    }
+
+    /// Flat pictures of another size are held against the reference as a shader would magnify them.
+    static BakedImage at_size_of(const BakedImage& reference, const BakedImage& product) {
+        const Level &like = reference.image.levels[0], &level = product.image.levels[0];
+        const bool is_same = like.width == level.width && like.height == level.height;
+        return is_same || reference.image.faces > 1 ? product : resampled(product, like.width, like.height);
     }
 
     static void take_headline(StudiedCase& studied, StudyPoint& point, const Json& certificate) {
@@ -211,11 +238,18 @@ class StudyRun {
                 study_.known = known;
                 tell("round " + std::to_string(round) + ": " + std::to_string(known) + " of " +
                      std::to_string(tasks.size()) + " times known, " + std::to_string(std::lround(wall_s)) +
-                     " s");
+                     " s; " + time_left(round, wall_s));
             });
         study_.points = tasks.size();
         for (std::size_t i = 0; i < timed_.size(); ++i)
             study_.cases[timed_[i].studied].points[timed_[i].point].timing = timings[i];
+    }
+
+    /// Of the rounds of times: how much longer they may take.
+    std::string time_left(int round, double wall_s) const {
+        const double fewest = wall_s * options_.limits.fewest / round;
+        const double last = std::max(options_.limits.budget_s, fewest) + wall_s / round;
+        return "at most " + std::to_string(std::lround(std::max(0.0, last - wall_s))) + " s more";
     }
 
     /// Errors below the floor count as the floor: which of them is smaller is not known.
@@ -229,7 +263,7 @@ class StudyRun {
             costs.push_back({studied.points[i].timing.ratio.value, std::max(floor, studied.points[i].error)});
         }
         std::vector<Cost> front;
-        for (const std::size_t i : pareto_front(costs)) {
+        for (const std::size_t i : front_apart(studied, whole, costs)) {
             studied.front.push_back(whole[i]);
             front.push_back(costs[i]);
         }
@@ -242,6 +276,21 @@ class StudyRun {
                 if (studied.points[whole[i]].series == s) of_series.push_back(costs[i]);
             studied.laws.push_back(fit_power_law(of_series, floor));
         }
+    }
+
+    /// The front without points that aren't known to be cheaper than a better one: their times' intervals
+    /// overlap.
+    static std::vector<std::size_t> front_apart(const StudiedCase& studied,
+                                                const std::vector<std::size_t>& whole,
+                                                const std::vector<Cost>& costs) {
+        std::vector<std::size_t> front = pareto_front(costs), apart;
+        std::ranges::reverse(front);  // the best first
+        const auto ratio = [&](std::size_t i) { return studied.points[whole[i]].timing.ratio; };
+        for (const std::size_t i : front)
+            if (apart.empty() || !std::isfinite(ratio(i).high) || ratio(i).high < ratio(apart.back()).low)
+                apart.push_back(i);
+        std::ranges::reverse(apart);
+        return apart;
     }
 
     /// Errors nearer to the reference's own say more of it than of the method.

@@ -10,6 +10,7 @@
 #include "bakers/job/schema.hpp"
 #include "bakers/run/atomic_file.hpp"
 #include "bakers/verify/study.hpp"
+#include "bakers/verify/study_legacy.hpp"
 
 namespace pbrbake::verify {
 namespace fs = std::filesystem;
@@ -328,6 +329,7 @@ std::vector<StudyCase> suite_cases(Depth depth, const fs::path& folder) {
     cases.push_back(integral_case(depth));
     cases.push_back(table_case(depth));
     for (const Beam& beam : kBeams) cases.push_back(profile_case(beam, depth, folder));
+    for (StudyCase& asked : legacy_cases(depth, folder)) cases.push_back(std::move(asked));
     return cases;
 }
 

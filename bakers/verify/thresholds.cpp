@@ -65,6 +65,7 @@ Thresholds from_json(const Json& json) {
                           json["max_energy_change"].get<double>(),
                           json["max_flip"].get<double>(),
                           json["max_document_change"].get<double>(),
+                          json["max_certificate_change"].get<double>(),
                           json["any_format"].get<bool>(),
                           {}};
     if (json.contains("flip_exposures"))
@@ -122,6 +123,7 @@ Json thresholds_json(const Thresholds& thresholds) {
               {"max_energy_change", thresholds.max_energy_change},
               {"max_flip", thresholds.max_flip},
               {"max_document_change", thresholds.max_document_change},
+              {"max_certificate_change", thresholds.max_certificate_change},
               {"any_format", thresholds.any_format}};
     if (thresholds.flip_exposures)
         json["flip_exposures"] = {thresholds.flip_exposures->first, thresholds.flip_exposures->second};

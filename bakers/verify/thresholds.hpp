@@ -13,7 +13,8 @@ namespace pbrbake::verify {
 
 struct Thresholds {
     std::uint64_t max_ulp;
-    double max_relative_rms, max_relative_p99, max_relative, max_energy_change, max_flip, max_document_change;
+    double max_relative_rms, max_relative_p99, max_relative, max_energy_change, max_flip, max_document_change,
+        max_certificate_change;
     bool any_format;
     std::optional<std::pair<double, double>> flip_exposures;
 };

@@ -36,6 +36,24 @@ TEST(Study, OfAJobPrintsATableAndWritesFourFiles) {
     EXPECT_THAT(names, testing::ElementsAre("study.csv", "study.html", "study.json", "study.svg"));
 }
 
+TEST(Study, KeepsTheSourcesOfItsOwnCasesAndIsHeldAgainstAnEarlierOne) {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments{"study", "--only", "light_ramp",  "--budget-s",
+                                       "1",     "-o",     folder / "out"};
+    ASSERT_EQ(run_program(arguments).code, 0);
+    std::vector<std::string> names;
+    for (const auto& [name, bytes] : contents(folder / "out")) names.push_back(name);
+    EXPECT_THAT(names,
+                testing::ElementsAre("ramp.json", "study.csv", "study.html", "study.json", "study.svg"));
+    EXPECT_THAT(read_file(folder / "out/study.html"), HasSubstr("class=curve"));
+    arguments.insert(arguments.end(), {"--against", folder / "out/study.json"});
+    EXPECT_THAT(run_program(arguments).err, HasSubstr("of 5 ratios agree within 10.0 %"));
+    arguments.back() = folder / "out/ramp.json";
+    const Outcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("is no study.json"));
+}
+
 TEST(Study, PrintsTheSameJsonAsItWrites) {
     const TemporaryFolder folder;
     folder.write("job.json", kJob);

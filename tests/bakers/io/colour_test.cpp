@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "bakers/io/display.hpp"
 #include "bakers/io/matrix3.hpp"
 #include "tests/bakers/io/fixtures.hpp"
 
@@ -104,6 +106,30 @@ TEST_F(Colour, RawAndEqualSpacesKeepEveryBit) {
     EXPECT_EQ(convert(rgb, "raw", "acescg"), rgb);
     EXPECT_EQ(convert(rgb, "lin_rec709", "lin_rec709"), rgb);
     EXPECT_EQ(convert(rgb, "acescg", "acescg"), rgb);
+}
+
+/// ACES 1's SDR transform of a neutral as Hill fitted it (S. Hill, BakingLab, ACES.hlsl), sRGB-encoded.
+double hills_fit(double neutral) {
+    const double v =
+        (neutral * (neutral + .0245786) - .000090537) / (neutral * (.983729 * neutral + .432951) + .238081);
+    return v <= .0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - .055;
+}
+
+TEST(Display, IsAcesToItsFit) {
+    float before = -1;
+    for (const float neutral : {0.f, .01f, .05f, .18f, .5f, 1.f, 4.f, 1e4f}) {
+        std::array<float, 3> rgb{neutral, neutral, neutral};
+        to_display("lin_rec709", rgb);
+        EXPECT_NEAR(rgb[0], std::clamp(hills_fit(neutral), 0., 1.), .03) << neutral;
+        EXPECT_NEAR(rgb[1], rgb[0], 2e-3) << neutral;  // neutrals stay neutral
+        EXPECT_NEAR(rgb[2], rgb[0], 2e-3) << neutral;
+        EXPECT_GE(rgb[0], before);
+        before = rgb[0];
+    }
+    std::array<float, 3> red{1, 0, 0};
+    to_display("lin_rec709", red);
+    EXPECT_GT(red[0], 4 * red[2]);
+    EXPECT_THROW(to_display("cmyk", red), Error);
 }
 
 TEST(ColourSpaces, AutoIsFirstAndEveryNameCanBeRead) {

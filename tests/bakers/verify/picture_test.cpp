@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "bakers/verify/baked_image.hpp"
 #include "pbr/ibl/cubemap.hpp"
 
 namespace pbrbake::verify {
@@ -28,6 +29,23 @@ Image cube_of(int size, const Colour& colour) {
                 for (int c = 0; c < 3; ++c) image.texel(0, face, y, x)[c] = static_cast<float>(rgb[c]);
             }
     return image;
+}
+
+TEST(ProbeLookup, GoesByTheLevelsOwnPerceptualRoughness) {
+    Image probe = cube_of(8, [](int, const glm::dvec3&) { return glm::dvec3(0); });
+    for (const float value : {1.f, 2.f}) {
+        const Image level = cube_of(4, [&](int, const glm::dvec3&) { return glm::dvec3(value); });
+        probe.levels.push_back(level.levels.front());
+    }
+    const ProbeLookup lookup(probe, 2, {0, 0.1, 0.6});
+    for (const auto& [perceptual_roughness, value] :
+         {std::pair{-1.0, 0.0}, {0, 0}, {0.05, 0.5}, {0.1, 1}, {0.35, 1.5}, {0.6, 2}, {1, 2}})
+        EXPECT_NEAR(lookup({0, 0, 1}, perceptual_roughness).x, value / 2, 1e-12) << perceptual_roughness;
+    EXPECT_THAT(
+        perceptual_roughness_of_levels(
+            Json::parse(R"({"levels": [{"perceptual_roughness": 0}, {"perceptual_roughness": 0.1}]})"), 2),
+        testing::ElementsAre(0, 0.1));
+    EXPECT_THAT(perceptual_roughness_of_levels(nullptr, 3), testing::ElementsAre(0, 0.5, 1));
 }
 
 TEST(DisplayTransform, IsSrgbAndClips) {

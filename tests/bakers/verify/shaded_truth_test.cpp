@@ -22,7 +22,7 @@ Level equirect(int height, const std::function<double(double y)>& radiance_of_he
 }
 
 BakedImage constant_probe(float value) {
-    BakedImage probe{{}, 1};
+    BakedImage probe{{}, 1, {0, 0.5, 1}};
     probe.image.channels = {"R", "G", "B"};
     probe.image.faces = 6;
     for (int n = 8; n > 1; n /= 2)
@@ -30,7 +30,7 @@ BakedImage constant_probe(float value) {
     return probe;
 }
 
-BakedImage table() { return {io::read_product(pbrbake::test::baked_folder() / "table.exr").image, 1}; }
+BakedImage table() { return {io::read_product(pbrbake::test::baked_folder() / "table.exr").image, 1, {}}; }
 
 pbr::Surface<double> gold(double perceptual_roughness) {
     return pbr::surface_from_material<double>({{1, 0.77, 0.34}, 1 - perceptual_roughness, 1, 0.5});

@@ -104,13 +104,14 @@ TEST(Study, ErrorsAgreeWithAnIndependentEvaluationAtTenRandomPoints) {
     std::vector<BakedImage> products;
     BakedImage reference;
     options.inspect = [&](const StudiedCase&, const StudyPoint&, const BakedImage& product,
-                          const BakedImage* truth) {
+                          const BakedImage* truth, const auto&) {
         products.push_back(product);
         reference = *truth;
     };
     run_study({small_probe()}, options);
     ASSERT_EQ(products.size(), 6u);
     const Image source = find_baker("probe")->builtin("indoor").image;
+    int judged = 0;  // to 1 %
     for (std::uint64_t i = 0; i < 10; ++i) {
         const auto pick = [i](std::uint64_t what, std::size_t count) {
             return static_cast<std::size_t>(pbr::random_bits(11, i, what) % count);
@@ -130,9 +131,11 @@ TEST(Study, ErrorsAgreeWithAnIndependentEvaluationAtTenRandomPoints) {
         const double error = value_error(product, reference, level, index);
         // The reference promises 3e-5 of the value; an error smaller than a hundred of that can't be had to 1
         // %.
+        judged += .01 * std::abs(stored - truth) >= 3e-5 * truth;
         EXPECT_NEAR(error, stored - truth, std::max(.01 * std::abs(stored - truth), 3e-5 * truth))
             << "method " << method << " level " << level << " face " << face << " " << x << ", " << y;
     }
+    EXPECT_GE(judged, 5);
 }
 
 double mean_of(const BakedImage& baked, int level) {
@@ -150,7 +153,7 @@ TEST(Study, ErrorIsWhatAFullCertificateFinds) {
     StudyOptions options = options_in(folder);
     double product_mean = 0, true_mean = 0;
     options.inspect = [&](const StudiedCase&, const StudyPoint& point, const BakedImage& product,
-                          const BakedImage* reference) {
+                          const BakedImage* reference, const auto&) {
         product_mean = mean_of(product, point.level);
         true_mean = mean_of(*reference, point.level);
     };
