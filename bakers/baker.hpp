@@ -8,7 +8,9 @@
 //   (quantised)
 // and `check(params)`, which finds what a schema can't say. registry.cpp lists them.
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -40,6 +42,18 @@ struct Read {
     As as = As::picture;
     bool with_alpha = false;  ///< of a picture: keeps a fourth (or of grey, second) channel as A, as stored
 };
+
+/// What may be asked of files before a job is settled. Paths are as in the job.
+struct FileQueries {
+    std::function<std::string(const std::string& path)> text;  ///< its bytes; throws Error
+    std::function<bool(const std::string& path)> exists;       ///< as a file that the job may read
+};
+
+/// "X_normal.png" for image "normal" of a bake whose first file is "X.png".
+inline std::string image_file(const std::string& first_file, const std::string& image) {
+    const std::size_t dot = std::min(first_file.find_last_of('.'), first_file.size());
+    return first_file.substr(0, dot) + "_" + image + first_file.substr(dot);
+}
 
 /// Decoded and colour-managed sources, by Params field.
 using Inputs = std::map<std::string, SourceImage>;

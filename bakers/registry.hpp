@@ -26,6 +26,8 @@ struct Baker {
     /// Files that a source names, relative to its folder: read if they are there. A file leads only into its
     /// own folder's tree.
     std::function<std::vector<Read>(const Inputs&)> follow = {};
+    /// Fills in fields that a bake, not validated yet, leaves out, from a file that it names.
+    std::function<void(Json& bake, const FileQueries&)> expand = {};
     /// Names of the images that a bake will write besides its first.
     std::function<std::vector<std::string>(const Json& bake)> images = {};
     /// Suffixes of the documents that a bake will write.

@@ -24,7 +24,9 @@ std::string all_lines(const std::vector<Mistake>& mistakes) {
 class Reading {
   public:
     Reading(Json document, Fence fence) : document_(std::move(document)), fence_(std::move(fence)) {
+        const std::vector<Mistake> sources = expand_bakes();
         mistakes_ = job_schema().mistakes(document_);
+        mistakes_.insert(mistakes_.end(), sources.begin(), sources.end());
         job_schema().complete(document_);
     }
 
@@ -63,6 +65,38 @@ class Reading {
                });
     }
 
+    /// Lets bakers fill in what a bake leaves out, from a material that it names, so that a job is as good as
+    /// one that states all of it.
+    std::vector<Mistake> expand_bakes() {
+        std::vector<Mistake> mistakes;
+        if (!document_.is_object() || !document_.contains("bakes") || !document_["bakes"].is_array())
+            return mistakes;
+        for (std::size_t i = 0; i < document_["bakes"].size(); ++i) {
+            Json& bake = document_["bakes"][i];
+            if (!bake.is_object() || !bake.contains("kind") || !bake["kind"].is_string()) continue;
+            const Baker* baker = find_baker(bake["kind"].get_ref<const std::string&>());
+            if (!baker || !baker->expand) continue;
+            try {
+                baker->expand(bake, file_queries());
+            } catch (const Error& error) {
+                mistakes.push_back({"/bakes/" + std::to_string(i) + "/source", error.what()});
+            }
+        }
+        return mistakes;
+    }
+
+    FileQueries file_queries() const {
+        return {[this](const std::string& path) {
+                    if (const auto refusal = fence_.refusal(path))
+                        throw Error(ExitCode::invalid_job, "", shown(path) + " " + *refusal);
+                    return read_text(fence_.resolve(path));
+                },
+                [this](const std::string& path) {
+                    std::error_code error;
+                    return !fence_.refusal(path) && fs::is_regular_file(fence_.resolve(path), error);
+                }};
+    }
+
     fs::path read_output() {
         const std::string output = document_["output"].get<std::string>();
         if (const auto refusal = fence_.refusal(output)) add("/output", shown(output) + " " + *refusal);
@@ -85,6 +119,10 @@ class Reading {
         bake.params.erase("kind");
         bake.params.erase("name");
         for (const Read& read : bake.baker->reads(json)) read_source(read, at, bake);
+        if (bake.baker->expand) {  // a base name is no file that is read
+            const fs::path source(bake.params["source"].get<std::string>());
+            if (source.is_absolute()) bake.params["source"] = source.filename().string();
+        }
         return bake;
     }
 
@@ -207,8 +245,7 @@ std::vector<Mistake> overwrites(const Job& job) {
 }  // namespace
 
 std::string image_file(const Bake& bake, const std::string& image) {
-    const fs::path first(bake.file);
-    return first.stem().string() + "_" + image + first.extension().string();
+    return pbrbake::image_file(bake.file, image);
 }
 
 JobError::JobError(ExitCode code, std::vector<Mistake> mistakes)

@@ -107,7 +107,10 @@ class BakeRun {
             sink = [observer = options_.observer, stage](double fraction) {
                 observer->progress(stage, fraction);
             };
-        return std::make_unique<Context>(options_.threads, bake_.accuracy, std::move(sink), options_.cancel);
+        auto context =
+            std::make_unique<Context>(options_.threads, bake_.accuracy, std::move(sink), options_.cancel);
+        context->set_product_file(bake_.file);
+        return context;
     }
 
     void decode() {

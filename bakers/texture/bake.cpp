@@ -5,8 +5,10 @@
 #include "bakers/texture/chain.hpp"
 #include "bakers/texture/convert.hpp"
 #include "bakers/texture/difference.hpp"
+#include "bakers/texture/gltf_document.hpp"
 #include "bakers/texture/material.hpp"
 #include "bakers/texture/pack.hpp"
+#include "bakers/texture/source_material.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbrbake::texture {
@@ -110,12 +112,25 @@ void warn(const Sources& sources, const Findings& found, Product& product) {
             "surface or calibrate none if it is f0 already");
 }
 
+void add_documents(const TextureParams& params, const Layout& layout, float unit, const Inputs& inputs,
+                   const std::string& first_file, Product& product) {
+    const Json json = material_json(params, layout, unit);
+    product.documents.push_back({"material.json", json, ""});
+    if (params.packing != Packing::gltf || !first_file.ends_with(".png")) return;
+    const auto material = source_material(params, inputs);
+    product.documents.push_back(
+        {"material.gltf", gltf_document(json["gltf"], first_file, material ? &*material : nullptr), ""});
+}
+
 }  // namespace
 
 std::vector<Mistake> check(const TextureParams& params, const std::string& format) {
     std::vector<Mistake> mistakes;
-    if (params.diffuse.empty() && params.specular.empty())
-        mistakes.push_back({"/diffuse", "missing, and specular too; a set has one of them at least"});
+    if (params.source.empty() && params.diffuse.empty() && params.specular.empty())
+        mistakes.push_back(
+            {"/diffuse", "missing, and specular too; a set has one of them at least, or a source"});
+    if (!params.material.empty() && !parse::has_material_extension(params.source))
+        mistakes.push_back({"/material", "found one, but source is no file of materials"});
     const Format* container = find_format(format);
     if (container && !container->is_chain && params.levels != 1)
         mistakes.push_back({"/levels", "found " + std::to_string(params.levels) + ", but " + format +
@@ -136,6 +151,8 @@ std::vector<Read> reads(const TextureParams& params) {
     const auto add = [&](const char* field, const std::string& path, const std::string& space) {
         if (!path.empty()) list.push_back({field, path, space, Read::As::picture, true});
     };
+    if (parse::has_material_extension(params.source))
+        list.push_back({"source", params.source, "", Read::As::text});
     add("diffuse", params.diffuse, params.colour_space);
     add("specular", params.specular, params.colour_space);
     add("gloss", params.gloss, "raw");
@@ -153,9 +170,14 @@ std::vector<std::string> images(const TextureParams& params) {
     return names;
 }
 
-std::vector<std::string> documents(const TextureParams&) { return {"material.json"}; }
+/// glTF takes PNG (and JPEG) pictures.
+std::vector<std::string> documents(const TextureParams& params, const std::string& format) {
+    if (params.packing == Packing::gltf && format == "png") return {"material.json", "material.gltf"};
+    return {"material.json"};
+}
 
-Product bake(const TextureParams& params, const Inputs& inputs, Context& context) {
+Product bake(const TextureParams& given, const Inputs& inputs, Context& context) {
+    const TextureParams params = settled(given, inputs);
     const Sources sources(params, inputs);
     Converted set = convert(sources, context);
     const Layout layout = layout_of(params, sources.has_opacity());
@@ -186,7 +208,8 @@ Product bake(const TextureParams& params, const Inputs& inputs, Context& context
     if (params.dither) dither(params, product.images);
     product.pixel = PixelType::unorm8;
     product.properties["set"] = properties_json(params, layout, set.findings, sources, unit);
-    product.documents.push_back({"material.json", material_json(params, layout, unit), ""});
+    add_documents(params, layout, unit, inputs, context.product_file(), product);
+    product.warnings = source_warnings(params, inputs);
     warn(sources, set.findings, product);
     return product;
 }

@@ -6,6 +6,7 @@
 #include "bakers/texture/convert.hpp"
 #include "bakers/texture/difference.hpp"
 #include "bakers/texture/pack.hpp"
+#include "bakers/texture/source_material.hpp"
 
 namespace pbrbake::texture {
 namespace {
@@ -24,8 +25,9 @@ float largest_difference(const Colour& a, const Colour& b) { return pbr::max_cha
 
 }  // namespace
 
-Certificate certify(const TextureParams& params, const Inputs& inputs, const Product& product,
+Certificate certify(const TextureParams& given, const Inputs& inputs, const Product& product,
                     Context& context) {
+    const TextureParams params = settled(given, inputs);
     const Sources sources(params, inputs);
     const Layout layout = layout_of(params, sources.has_opacity());
     const Json& properties = product.properties["set"];

@@ -62,7 +62,10 @@ class Sources {
     bool has_occlusion() const { return occlusion_.image != nullptr; }
     bool has_opacity() const { return opacity_.image != nullptr; }
     bool has_gloss() const { return gloss_.image != nullptr; }
-    bool has_specular() const { return specular_.image != nullptr; }
+    /// Whether the set says what it reflects: a map, or a factor.
+    bool has_specular() const {
+        return specular_.image || params_.specular_factor != std::vector<double>{1, 1, 1};
+    }
     pbr::DiffuseCoupling coupling() const { return coupling_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -83,7 +86,7 @@ class Sources {
 
     const TextureParams& params_;
     const Inputs& inputs_;
-    int width_ = 0, height_ = 0;
+    int width_ = 1, height_ = 1;  ///< of factors alone
     Map diffuse_, specular_, gloss_, normal_, occlusion_, opacity_;
     pbr::DiffuseCoupling coupling_;
     std::vector<std::string> warnings_;

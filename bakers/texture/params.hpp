@@ -14,7 +14,7 @@ enum class Model { specular_gloss, blinn_phong, phong };
 enum class Coupling { automatic, none, fresnel };
 enum class Norm { energy, n_plus_8, none, over_pi };
 enum class Fit { slope, l2, cumulative, half_width };
-enum class GlossIn { automatic, gloss, specular_alpha, diffuse_alpha, normal_alpha };
+enum class GlossIn { automatic, gloss, specular_alpha, diffuse_alpha, normal_alpha, constant };
 enum class GlossIs { automatic, smoothness, perceptual_roughness, alpha, power, power_log2 };
 enum class Green { automatic, up, down };
 enum class AlphaIs { automatic, opacity, nothing };
@@ -25,6 +25,7 @@ enum class Wrap { repeat, clamp };
 enum class ExtraMap { confidence, difference };
 
 struct TextureParams {
+    std::string source, material;  ///< what filled in the other fields, if anything did
     std::string diffuse, specular, gloss, normal, occlusion, opacity;  ///< paths; "": none
     std::string colour_space;
     Model model;
@@ -55,6 +56,8 @@ struct TextureParams {
 
     template <class Visit>
     static void fields(Visit&& visit) {
+        visit("source", &TextureParams::source);
+        visit("material", &TextureParams::material);
         visit("diffuse", &TextureParams::diffuse);
         visit("specular", &TextureParams::specular);
         visit("gloss", &TextureParams::gloss);
@@ -111,8 +114,8 @@ struct EnumNames<texture::Fit> {
 };
 template <>
 struct EnumNames<texture::GlossIn> {
-    static constexpr std::array<std::string_view, 5> names{"auto", "gloss", "specular_alpha", "diffuse_alpha",
-                                                           "normal_alpha"};
+    static constexpr std::array<std::string_view, 6> names{"auto",          "gloss",        "specular_alpha",
+                                                           "diffuse_alpha", "normal_alpha", "constant"};
 };
 template <>
 struct EnumNames<texture::GlossIs> {

@@ -53,6 +53,7 @@ float half_step(float linear, int bits, bool is_srgb) {
 
 Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(params), inputs_(inputs) {
     for (const auto& [field, source] : inputs) {
+        if (source.image.levels.empty()) continue;  // a material
         if (source.image.faces != 1)
             throw Error(ExitCode::unreadable_input, "",
                         field + ": is a cube map; a texture set is of flat pictures");
@@ -70,7 +71,8 @@ Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(pa
         (params.diffuse_coupling == Coupling::automatic && params.model == Model::specular_gloss);
     coupling_ = coupled ? pbr::DiffuseCoupling::fresnel : pbr::DiffuseCoupling::none;
     for (const auto& [field, source] : inputs)
-        if (source.image.levels.front().width != width_ || source.image.levels.front().height != height_)
+        if (!source.image.levels.empty() &&
+            (source.image.levels.front().width != width_ || source.image.levels.front().height != height_))
             warnings_.push_back(field + ": is " + std::to_string(source.image.levels.front().width) + " x " +
                                 std::to_string(source.image.levels.front().height) +
                                 ", interpolated to the set's " + std::to_string(width_) + " x " +
@@ -100,7 +102,7 @@ void Sources::choose_gloss() {
         take(GlossIn::diffuse_alpha, "diffuse", 3);
         take(GlossIn::normal_alpha, "normal", 3);
     }
-    if (gloss_.image) return;
+    if (gloss_.image || params_.gloss_in == GlossIn::constant) return;
     if (!is_auto)
         throw Error(ExitCode::unreadable_input, "",
                     "gloss_in: found \"" + std::string(enum_name(params_.gloss_in)) +
@@ -158,9 +160,9 @@ float Sources::perceptual_roughness(int x, int y, float& n) const {
         return pbr::perceptual_roughness_from_alpha(pbr::alpha_from_blinn_phong(blinn, fit_of(params_.fit)));
     };
     n = static_cast<float>(params_.power);
-    if (!gloss_.image) return n > 0 ? of_exponent(n) : .5f;
-    float gloss = 0;
-    fetch(gloss_, x, y, &gloss, 1);
+    if (!gloss_.image && params_.gloss_in != GlossIn::constant) return n > 0 ? of_exponent(n) : .5f;
+    float gloss = 1;
+    if (gloss_.image) fetch(gloss_, x, y, &gloss, 1);
     gloss *= static_cast<float>(params_.gloss_factor);
     n = exponent(gloss);
     if (n >= 0) return of_exponent(n);
@@ -188,11 +190,10 @@ LegacyTexel Sources::texel(int x, int y) const {
     };
     const Colour diffuse = colour(diffuse_, params_.diffuse_factor, texel.quantisation.diffuse);
     Colour specular = colour(specular_, params_.specular_factor, texel.quantisation.f0);
-    if (!specular_.image && specular == Colour(1))
-        specular = Colour(static_cast<float>(params_.dielectric_f0));
+    if (!has_specular()) specular = Colour(static_cast<float>(params_.dielectric_f0));
     float n = 0;
     texel.perceptual_roughness = perceptual_roughness(x, y, n);
-    if (params_.model == Model::specular_gloss || !specular_.image) {
+    if (params_.model == Model::specular_gloss || !has_specular()) {
         texel.reflected = pbr::reflected_from_specular(diffuse, specular, coupling_);
         if (coupling_ == pbr::DiffuseCoupling::fresnel)
             texel.quantisation.diffuse *= 1 - pbr::max_channel(specular);
