@@ -8,7 +8,6 @@
 //   (quantised)
 // and `check(params)`, which finds what a schema can't say. registry.cpp lists them.
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -43,17 +42,22 @@ struct Read {
     bool with_alpha = false;  ///< of a picture: keeps a fourth (or of grey, second) channel as A, as stored
 };
 
-/// What may be asked of files before a job is settled. Paths are as in the job.
+/// What may be asked of files before a bake is settled. Paths are as in the job.
 struct FileQueries {
-    std::function<std::string(const std::string& path)> text;  ///< its bytes; throws Error
-    std::function<bool(const std::string& path)> exists;       ///< as a file that the job may read
+    /// A file's bytes; throws Error.
+    std::function<std::string(const std::string& path)> text;
+    /// The path of a file that the job may read: as given, or else as the file is spelt that differs in the
+    /// case of letters alone (the first of several); "" where there is none.
+    std::function<std::string(const std::string& path)> find;
 };
 
-/// "X_normal.png" for image "normal" of a bake whose first file is "X.png".
-inline std::string image_file(const std::string& first_file, const std::string& image) {
-    const std::size_t dot = std::min(first_file.find_last_of('.'), first_file.size());
-    return first_file.substr(0, dot) + "_" + image + first_file.substr(dot);
-}
+/// One bake that an unsettled one stands for.
+struct Expansion {
+    Json bake;           ///< what it leaves out filled in; not checked against the schema
+    std::string suffix;  ///< of its name, "_brick"; "": the bake stands for this one alone
+    std::vector<std::string> warnings;  ///< what was tolerated in its source
+    std::optional<Error> error;         ///< why it can't be baked
+};
 
 /// Decoded and colour-managed sources, by Params field.
 using Inputs = std::map<std::string, SourceImage>;

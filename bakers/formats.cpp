@@ -9,20 +9,25 @@ namespace pbrbake {
 
 std::span<const Format> formats() {
     using enum PixelType;
-    static const std::array<Format, 8> table{{{"exr", {half, float32}, 1024, true},
-                                              {"ktx2", {half, float32, unorm16, unorm8}, 4, true},
-                                              {"dds", {half, float32, unorm16, unorm8}, 4, true},
-                                              {"png", {unorm16, unorm8}, 4, false},
-                                              {"hdr", {rgbe}, 3, false},
-                                              {"h", {half, float32, unorm16}, 4, false},
-                                              {"json", {}, 0, false},
-                                              {"gltf", {}, 0, false}}};
+    static const std::array<Format, 8> table{{{"exr", {half, float32}, 1024, true, false},
+                                              {"ktx2", {half, float32, unorm16, unorm8}, 4, true, true},
+                                              {"dds", {half, float32, unorm16, unorm8}, 4, true, true},
+                                              {"png", {unorm16, unorm8}, 4, false, false},
+                                              {"hdr", {rgbe}, 3, false, false},
+                                              {"h", {half, float32, unorm16}, 4, false, true},
+                                              {"json", {}, 0, false, false},
+                                              {"gltf", {}, 0, false, false}}};
     return table;
 }
 
 const Format* find_format(std::string_view name) {
     const auto found = std::ranges::find(formats(), name, &Format::name);
     return found == formats().end() ? nullptr : &*found;
+}
+
+const Format& picture_format(std::string_view name) {
+    const Format& format = *find_format(name);
+    return format.is_document() ? *find_format("png") : format;
 }
 
 std::string_view pixel_name(PixelType pixel) {

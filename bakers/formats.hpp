@@ -16,7 +16,8 @@ struct Format {
     std::string_view name;  ///< also the file's extension
     std::vector<PixelType> pixels;
     int max_channels;
-    bool is_chain;  ///< holds cube maps and mip levels
+    bool is_chain;   ///< holds cube maps and mip levels
+    bool is_volume;  ///< holds 3D textures
 
     bool is_document() const { return pixels.empty(); }
 };
@@ -26,6 +27,9 @@ std::span<const Format> formats();
 
 /// The format of a name, or null.
 const Format* find_format(std::string_view name);
+
+/// The format of a product's pictures: its own, or png beside a document. `name` is a format's.
+const Format& picture_format(std::string_view name);
 
 /// "half", "float", "unorm16", "unorm8", "rgbe".
 std::string_view pixel_name(PixelType pixel);

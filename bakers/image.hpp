@@ -26,7 +26,8 @@ struct Level {
     std::vector<float> texels;
 };
 
-/// A 2D picture (faces == 1) or a cube map (faces == 6), with one or more mip levels, level 0 the largest.
+/// A 2D picture (faces == 1), a cube map (faces == 6) or a volume, with one or more mip levels, level 0 the
+/// largest. A volume's slices are its faces, and it has one level.
 ///
 /// Cube maps use the project's own orientation: right-handed, y up, faces in the order +X -X +Y -Y +Z -Z,
 /// each as OpenGL samples it (texel (0,0) is at s = t = 0; see libpbr's ibl/cubemap.hpp). Other orientations
@@ -34,10 +35,12 @@ struct Level {
 struct Image {
     std::string name;                   ///< "" for a product's only image
     std::vector<std::string> channels;  ///< EXR channel names, in memory order: {"R","G","B"}
-    int faces = 1;
+    int faces = 1;                      ///< of a volume: its slices
     std::vector<Level> levels;
     Transfer transfer = Transfer::linear;
+    bool is_volume = false;  ///< faces are slices of a 3D texture
 
+    bool is_cube() const { return faces == 6 && !is_volume; }
     int channel_count() const { return static_cast<int>(channels.size()); }
     const float* texel(int level, int face, int y, int x) const {
         const Level& l = levels[static_cast<std::size_t>(level)];

@@ -56,11 +56,11 @@ std::span<const Baker> bakers() {
                                    texture::bake, texture::certify);
         texture.expand = texture::expand;
         texture.images = [](const Json& json) {
-            return texture::images(read_params<texture::TextureParams>(json));
+            return texture::images(read_params<texture::TextureParams>(json),
+                                   json.at("format").get<std::string>());
         };
         texture.documents = [](const Json& json) {
-            return texture::documents(read_params<texture::TextureParams>(json),
-                                      json.at("format").get<std::string>());
+            return texture::documents(json.at("format").get<std::string>());
         };
         Baker light = make_baker("light", light::kAlgorithmVersion, light::check, light::reads, light::bake,
                                  light::certify);

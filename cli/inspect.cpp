@@ -11,12 +11,15 @@ namespace pbrbake::cli {
 namespace {
 
 void print_levels(const verify::Inspection& inspection) {
-    const bool is_cube = inspection.faces == 6;
+    const bool is_cube = inspection.faces == 6 && !inspection.is_volume;
     std::printf("%-6s %-11s %-8s %11s %11s %11s%s\n", "level", "size", "channel", "min", "max", "mean",
                 is_cube ? "      energy" : "");
     for (std::size_t i = 0; i < inspection.levels.size(); ++i) {
         const verify::LevelSummary& level = inspection.levels[i];
-        const std::string size = std::to_string(level.width) + "x" + std::to_string(level.height);
+        const std::string size =
+            std::to_string(level.width) + "x" + std::to_string(level.height) +
+            (inspection.is_volume ? std::string("x").append(std::to_string(inspection.faces))
+                                  : std::string());
         for (std::size_t c = 0; c < level.channels.size(); ++c) {
             const verify::ChannelSummary& channel = level.channels[c];
             std::printf("%-6s %-11s %-8s %11.5g %11.5g %11.5g", c == 0 ? std::to_string(i).c_str() : "",
@@ -27,6 +30,17 @@ void print_levels(const verify::Inspection& inspection) {
                 std::printf("  %llu not finite", static_cast<unsigned long long>(channel.non_finite));
             std::printf("\n");
         }
+    }
+}
+
+/// Shares of all texels, in percent.
+void print_ranges(const std::vector<verify::RangeCheck>& ranges) {
+    if (ranges.empty()) return;
+    std::printf("\n%-40s %-12s %8s %8s %8s\n", "physical range", "", "texels", "below", "above");
+    for (const verify::RangeCheck& check : ranges) {
+        std::printf("%-40s %4g to %-4g %7.2f%% %7.2f%% %7.2f%%%s\n", check.what.c_str(), check.lowest,
+                    check.highest, 100 * check.texels, 100 * check.below, 100 * check.above,
+                    check.below + check.above > .01 ? "  outside" : "");
     }
 }
 
@@ -61,10 +75,13 @@ void print_certificate(const Json& record) {
 
 void print(const std::string& file, const verify::Inspection& inspection) {
     std::printf("%s: %s, %s, %s, %zu level%s, scale %g, %s\n\n", file.c_str(), inspection.format.c_str(),
-                inspection.faces == 6 ? "cube map" : "picture", inspection.pixel.c_str(),
-                inspection.levels.size(), inspection.levels.size() == 1 ? "" : "s", inspection.scale,
-                inspection.units.c_str());
+                inspection.is_volume    ? "volume"
+                : inspection.faces == 6 ? "cube map"
+                                        : "picture",
+                inspection.pixel.c_str(), inspection.levels.size(), inspection.levels.size() == 1 ? "" : "s",
+                inspection.scale, inspection.units.c_str());
     print_levels(inspection);
+    print_ranges(inspection.ranges);
     std::printf("\n");
     print_certificate(inspection.record);
 }
@@ -75,9 +92,10 @@ ExitCode inspect_command(const Arguments& arguments) {
     Options options(
         "inspect", "[OPTIONS] FILE",
         "Shows what a product holds: size, range and mean of every level, its energy if it is a cube map "
-        "(the integral over the sphere), and the certificate in the record beside it. Values are divided "
+        "(the integral over the sphere), how much of a texture set is outside of what surfaces reflect, and "
+        "the certificate in the record beside it. Values are divided "
         "by the file's scale.");
-    options.add_positional({{"file", "FILE", "An EXR or KTX2 file."}});
+    options.add_positional({{"file", "FILE", "An EXR, KTX2, DDS, PNG or HDR file."}});
     options.add({"output", {{"json", "", "Prints JSON.", true}}});
     const auto given = options.parse(arguments);
     if (!given) return ExitCode::done;

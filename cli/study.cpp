@@ -115,6 +115,18 @@ std::string command_line(const Arguments& arguments) {
     return line;
 }
 
+/// Flags of one study mean nothing to the other.
+void check_together(const Given& given) {
+    const bool shading = given.is_on("shading");
+    const std::vector<const char*> others =
+        shading ? std::vector<const char*>{"job", "suite", "only", "effects", "budget-s", "json"}
+                : std::vector<const char*>{"environment", "size"};
+    for (const std::string other : others)
+        if (given.has(other))
+            throw Error(ExitCode::usage, other == "job" ? "JOB" : "--" + other,
+                        shading ? "found with --shading, which doesn't take it" : "is for --shading");
+}
+
 Options study_command_options() {
     Options options("study", "[OPTIONS] [JOB]",
                     "Shows what accuracy costs in time: every method at every setting, its error against the "
@@ -128,14 +140,14 @@ Options study_command_options() {
           {"only", "NAME", "Studies the case of this name alone; may be given again.", false, true},
           {"effects", "",
            "Measures what each effect costs, on and off; alone unless a suite or job is given too.", true}}});
-    options.add(
-        {"shading",
-         {{"shading", "",
-           "Instead shades spheres and a plane by the exact integral, and by the split sum with baked products, "
-           "with Frostbite's dominant direction and without; writes index.html and figures.json.",
-           true},
-          {"environment", "NAME", "Built-in environment: indoor or outdoor. [default: indoor]"},
-          {"size", "N", "Pixels across a sphere. [integer 8 to 512; default: 48]"}}});
+    options.add({"shading",
+                 {{"shading", "",
+                   "Instead shades spheres and a plane by the exact integral, and by the split sum with "
+                   "baked products, "
+                   "with Frostbite's dominant direction and without; writes index.html and figures.json.",
+                   true},
+                  {"environment", "NAME", "Built-in environment: indoor or outdoor. [default: indoor]"},
+                  {"size", "N", "Pixels across a sphere. [integer 8 to 512; default: 48]"}}});
     options.add({"output",
                  {{"o,output", "DIR",
                    "Folder for study.html, study.json, study.csv and study.svg. [default: study]"}}});
@@ -178,6 +190,7 @@ void print_results(const Results& results, bool as_json) {
 ExitCode study_command(const Arguments& arguments) {
     const auto given = study_command_options().parse(arguments);
     if (!given) return ExitCode::done;
+    check_together(*given);
     if (given->is_on("shading")) return study_shading(*given);
     const ScratchFolder scratch;
     verify::PictureBook pictures(kMostPictureBytes);

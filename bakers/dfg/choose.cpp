@@ -14,6 +14,13 @@ namespace {
 
 constexpr std::array kSizes{8, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512, 768, 1024};
 
+constexpr std::size_t kVolumeSizes = 8;  // of them, up to 128
+
+/// A square table, or a volume with a slice for every four rows and one of round lobes.
+std::vector<int> sides(const DfgParams& params, int size) {
+    return is_volume(params) ? std::vector{size, size, size / 4 | 1} : std::vector{size};
+}
+
 /// The layouts that a job allows, the simplest to look up first.
 std::vector<DfgParams> candidates(const DfgParams& asked) {
     std::vector<DfgParams> all{settled(asked)};
@@ -31,7 +38,7 @@ std::vector<DfgParams> candidates(const DfgParams& asked) {
 std::size_t smallest_size(DfgParams params, double max_error, std::size_t end, Context& context) {
     const pbr::DfgMethod truth = pbr::DfgMethod::quadrature(max_error / 50);
     for (std::size_t i = 0; i < end;) {
-        params.size = {kSizes[i]};
+        params.size = sides(params, kSizes[i]);
         const double error =
             sampled_errors(params, nullptr, truth, Probing::middles, 0, 0, context).interpolation;
         if (error <= max_error) return i;
@@ -53,14 +60,15 @@ Choice choose(const DfgParams& asked, Context& context) {
     const PixelType pixel = max_error >= 4 * kHalfError ? PixelType::half : PixelType::float32;
     const double left =
         max_error - (pixel == PixelType::half ? kHalfError : 0) - quadrature_error(context.accuracy());
-    std::size_t smallest = kSizes.size();
+    const std::size_t sizes = is_volume(settled(asked)) ? kVolumeSizes : kSizes.size();
+    std::size_t smallest = sizes;
     DfgParams best = settled(asked);
     for (const DfgParams& candidate : candidates(asked)) {
         const std::size_t size = smallest_size(candidate, left, smallest, context);
         if (size < smallest) best = candidate;
         smallest = std::min(size, smallest);
     }
-    best.size = {kSizes[std::min(smallest, kSizes.size() - 1)]};
+    best.size = sides(best, kSizes[std::min(smallest, sizes - 1)]);
     return {best, pixel};
 }
 

@@ -10,6 +10,11 @@
 namespace pbrbake::dfg {
 namespace {
 
+/// Of a volume, where neither job nor target says; an odd number of slices has one of round lobes.
+constexpr int kDefaultSide = 64, kDefaultDepth = 17;
+/// (along - across) / (along + across) of the first and last slices, where the widths differ ten times.
+constexpr double kMostStretched = 9.0 / 11;
+
 /// Coordinate in [0, 1] of texel i of n. A single texel lies in the middle, whatever the alignment.
 double coordinate(Align align, int i, int n) {
     return align == Align::ends && n > 1 ? static_cast<double>(i) / (n - 1) : (i + 0.5) / n;
@@ -44,9 +49,18 @@ void settle(E& value, E fallback) {
 DfgParams settled(DfgParams params) {
     const TargetLayout& target = layout_of(params.target);
     if (params.size == std::vector{0}) params.size = {0, 0};
-    if (params.size.front() == 0) params.size.front() = target.width;
-    if (params.size.back() == 0) params.size.back() = target.height;
     if (params.terms.empty()) params.terms = target.terms;
+    if (is_volume(params)) {
+        if (params.size.size() < 2) params.size.push_back(params.size.front());
+        if (params.size.size() < 3) params.size.push_back(0);
+        if (params.size[2] == 0) params.size[2] = kDefaultDepth;
+        if (params.target == Target::none)
+            for (int& side : params.size)
+                if (side == 0) side = kDefaultSide;
+    }
+    if (params.size.front() == 0) params.size.front() = target.width;
+    if (int& height = params.size.size() > 1 ? params.size[1] : params.size[0]; height == 0)
+        height = target.height;
     settle(params.disney, target.disney);
     settle(params.cloth, target.cloth);
     settle(params.axis, target.axis);
@@ -68,8 +82,21 @@ double value_of_row(const DfgParams& params, int y) {
     const int row = params.flip_rows ? params.height() - 1 - y : y;
     const double v = coordinate(params.align, row, params.height());
     if (is_over_curvature(params)) return v;
-    if (params.roughness_axis == RoughnessAxis::alpha) return pbr::perceptual_roughness_from_alpha(v);
-    return params.roughness_axis == RoughnessAxis::sqrt_perceptual ? power_of(2, v) : v;
+    const double most = is_volume(params) ? kRoughestAlong : 1;
+    if (params.roughness_axis == RoughnessAxis::alpha) return most * pbr::perceptual_roughness_from_alpha(v);
+    return most * (params.roughness_axis == RoughnessAxis::sqrt_perceptual ? power_of(2, v) : v);
+}
+
+double value_of_slice(const DfgParams& params, int z) {
+    if (!is_volume(params)) return 1;
+    const double stretched = (2 * coordinate(params.align, z, params.depth()) - 1) * kMostStretched;
+    return (1 - stretched) / (1 + stretched);
+}
+
+double slice_of_value(const DfgParams& params, double stretch) {
+    if (!is_volume(params)) return 0;
+    const double stretched = (1 - stretch) / (1 + stretch);
+    return texel(params.align, (stretched / kMostStretched + 1) / 2, params.depth());
 }
 
 double column_of_value(const DfgParams& params, double across) {
@@ -78,6 +105,7 @@ double column_of_value(const DfgParams& params, double across) {
 }
 
 double row_of_value(const DfgParams& params, double down) {
+    if (is_volume(params)) down /= kRoughestAlong;
     double v = down;
     if (!is_over_curvature(params)) {
         if (params.roughness_axis == RoughnessAxis::alpha) v = pbr::alpha_from_perceptual_roughness(down);
@@ -90,13 +118,21 @@ double row_of_value(const DfgParams& params, double down) {
 Range across(const DfgParams& params) { return {is_over_curvature(params) ? -1.0 : 0.0, 1}; }
 
 Range down(const DfgParams& params) {
-    return {is_over_curvature(params) ? 0.0 : params.min_perceptual_roughness, 1};
+    return {is_over_curvature(params) ? 0.0 : params.min_perceptual_roughness,
+            is_volume(params) ? kRoughestAlong : 1};
+}
+
+Range deep(const DfgParams& params) {
+    if (!is_volume(params)) return {1, 1};
+    return {(1 - kMostStretched) / (1 + kMostStretched), (1 + kMostStretched) / (1 - kMostStretched)};
 }
 
 Json layout_json(const DfgParams& params) {
     Json terms = Json::array();
     for (const Term term : params.terms) terms.push_back(enum_name(term));
-    return {{"size", {params.width(), params.height()}},
+    Json size{params.width(), params.height()};
+    if (is_volume(params)) size.push_back(params.depth());
+    return {{"size", size},
             {"terms", terms},
             {"axis", enum_name(params.axis)},
             {"roughness_axis", enum_name(params.roughness_axis)},

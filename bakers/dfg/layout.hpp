@@ -15,6 +15,14 @@ DfgParams settled(DfgParams params);
 double value_of_column(const DfgParams& params, int x);
 double value_of_row(const DfgParams& params, int y);
 
+/// The stretch that slice z of a volume stands for: width across the view over that along it, from 10 to
+/// 1/10; 1 of any other table.
+double value_of_slice(const DfgParams& params, int z);
+double slice_of_value(const DfgParams& params, double stretch);
+/// The highest perceptual roughness along a view in a volume: width sqrt(10), which Burley's convention
+/// reaches.
+inline constexpr double kRoughestAlong = 1.7782794100389228;
+
 /// Continuous texel coordinates (0 at the middle of the first texel) at which a shader finds such values.
 double column_of_value(const DfgParams& params, double across);
 double row_of_value(const DfgParams& params, double down);
@@ -26,6 +34,7 @@ struct Range {
 };
 Range across(const DfgParams& params);
 Range down(const DfgParams& params);
+Range deep(const DfgParams& params);
 
 /// How a shader finds its texel, for the record: what a target or an accuracy chose is said as well.
 Json layout_json(const DfgParams& params);

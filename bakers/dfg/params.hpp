@@ -21,7 +21,8 @@ enum class Term {
     eon,
     chan,
     hammon,
-    subsurface
+    subsurface,
+    ggx_anisotropic
 };
 enum class Disney { automatic, renormalised, original, original_minus_half };
 enum class Cloth { automatic, charlie, neubelt };
@@ -34,7 +35,7 @@ enum class Integrator { quadrature, is };
 /// As the job has them; settled() in layout.hpp gives every `automatic`, size 0 and empty `terms` its value.
 struct DfgParams {
     Target target;
-    std::vector<int> size;  ///< n, or width (NoV) and height (roughness); 0: for settled()
+    std::vector<int> size;  ///< n, or width (NoV), height (roughness) and a volume's depth; 0: for settled()
     std::vector<Term> terms;
     Disney disney;
     Cloth cloth;
@@ -67,7 +68,8 @@ struct DfgParams {
     }
 
     int width() const { return size.front(); }
-    int height() const { return size.back(); }
+    int height() const { return size.size() > 1 ? size[1] : size.front(); }
+    int depth() const { return size.size() > 2 ? size[2] : 1; }
 };
 
 }  // namespace dfg
@@ -79,9 +81,9 @@ struct EnumNames<dfg::Target> {
 };
 template <>
 struct EnumNames<dfg::Term> {
-    static constexpr std::array<std::string_view, 10> names{
-        "ggx", "disney_diffuse", "multiscatter", "charlie",   "clear_coat", "uncorrelated",
-        "eon", "chan",           "hammon",       "subsurface"};
+    static constexpr std::array<std::string_view, 11> names{
+        "ggx", "disney_diffuse", "multiscatter", "charlie",    "clear_coat",     "uncorrelated",
+        "eon", "chan",           "hammon",       "subsurface", "ggx_anisotropic"};
 };
 template <>
 struct EnumNames<dfg::Disney> {

@@ -1,6 +1,7 @@
 #include "bakers/dfg/sampled.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -52,47 +53,41 @@ class Prober {
     Prober(const DfgParams& params, const Product* table, const pbr::DfgMethod& truth, Context& context)
         : params_(params), table_(table), truth_(truth), context_(context) {
         for (int x = 0; x < params.width(); ++x) texel_values_.push_back(value_of_column(params, x));
-        texels_.resize(params.height());
+        texels_.resize(static_cast<std::size_t>(params.height()) * params.depth());
     }
 
     /// Evaluates the rows of texels that lookups at these values read.
-    void prepare(const std::vector<double>& downs) {
+    void prepare(const std::vector<Place>& places) {
         std::set<int> read;
-        for (const double down : downs) {
-            const int low = lookup(row_of_value(params_, down), params_.height()).low;
-            read.insert({low, std::min(low + 1, params_.height() - 1)});
-        }
+        for (const Place& place : places)
+            for (const WeightedRow& row : rows_read(place)) read.insert(row.index);
         const std::vector<int> rows(read.begin(), read.end());
         context_.parallel_for(static_cast<std::int64_t>(rows.size()), 1,
                               [&](std::int64_t begin, std::int64_t end) {
                                   for (std::int64_t i = begin; i < end; ++i)
-                                      texels_[rows[i]] = exact(value_of_row(params_, rows[i]), texel_values_);
+                                      texels_[rows[i]] = exact(place_of(rows[i]), texel_values_);
                               });
     }
 
     /// The errors along one row of points.
-    SampledErrors row(double down, const std::vector<double>& across) const {
-        const Columns truth = exact(down, across);
-        const Lookup y = lookup(row_of_value(params_, down), params_.height());
-        const int high_row = std::min(y.low + 1, params_.height() - 1);
-        const Columns& low = texels_[y.low];
-        const Columns& high = texels_[high_row];
+    SampledErrors row(const Place& place, const std::vector<double>& across) const {
+        const Columns truth = exact(place, across);
+        const std::array<WeightedRow, 4> rows = rows_read(place);
         SampledErrors errors;
         errors.points = static_cast<int>(across.size());
         for (std::size_t i = 0; i < across.size(); ++i) {
             const Lookup x = lookup(column_of_value(params_, across[i]), params_.width());
             const int right = std::min(x.low + 1, params_.width() - 1);
             for (std::size_t c = 0; c < truth.size(); ++c) {
-                const double interpolated = mix(mix(low[c][x.low], low[c][right], x.part),
-                                                mix(high[c][x.low], high[c][right], x.part), y.part);
+                double interpolated = 0, read = 0;
+                for (const auto& [index, weight] : rows) {
+                    const std::vector<double>& exact_row = texels_[index][c];
+                    interpolated += weight * mix(exact_row[x.low], exact_row[right], x.part);
+                    if (table_)
+                        read += weight * mix(stored(index, x.low, c), stored(index, right, c), x.part);
+                }
                 errors.interpolation = std::max(errors.interpolation, std::abs(interpolated - truth[c][i]));
                 if (!table_) continue;
-                const auto stored = [&](int row, int column) {
-                    return table_->images[0].texel(0, 0, row, column)[c] / table_->scale;
-                };
-                const double read =
-                    mix(mix(stored(y.low, x.low), stored(y.low, right), x.part),
-                        mix(stored(high_row, x.low), stored(high_row, right), x.part), y.part);
                 errors.sampled = std::max(errors.sampled, std::abs(read - truth[c][i]));
             }
         }
@@ -100,8 +95,32 @@ class Prober {
     }
 
   private:
-    Columns exact(double down, const std::vector<double>& across) const {
-        return Row(params_, truth_, down, across, context_, "certify.").evaluate();
+    /// A row of texels by its index, slices slowest, and what a lookup takes of it.
+    struct WeightedRow {
+        int index;
+        double weight;
+    };
+    std::array<WeightedRow, 4> rows_read(const Place& place) const {
+        const Lookup y = lookup(row_of_value(params_, place.down), params_.height());
+        const Lookup z = lookup(slice_of_value(params_, place.stretch), params_.depth());
+        const int right = std::min(y.low + 1, params_.height() - 1);
+        const int near = z.low * params_.height(),
+                  far = std::min(z.low + 1, params_.depth() - 1) * params_.height();
+        return {{{near + y.low, (1 - z.part) * (1 - y.part)},
+                 {near + right, (1 - z.part) * y.part},
+                 {far + y.low, z.part * (1 - y.part)},
+                 {far + right, z.part * y.part}}};
+    }
+    Place place_of(int row) const {
+        return {value_of_row(params_, row % params_.height()),
+                value_of_slice(params_, row / params_.height())};
+    }
+    Columns exact(const Place& place, const std::vector<double>& across) const {
+        return Row(params_, truth_, place, across, context_, "certify.").evaluate();
+    }
+    double stored(int row, int x, std::size_t c) const {
+        return table_->images[0].texel(0, row / params_.height(), row % params_.height(), x)[c] /
+               table_->scale;
     }
 
     const DfgParams& params_;
@@ -131,12 +150,24 @@ SampledErrors sampled_errors(const DfgParams& params, const Product* table, cons
         probing == Probing::middles ? std::vector{0.5} : std::vector{0.25, 0.5, 0.75},
         [&](int x) { return value_of_column(params, x); },
         [&](double value) { return column_of_value(params, value); });
-    const std::vector<double> rows =
+    const std::vector<double> downs =
         probing != Probing::some
             ? values_between(
                   down(params), params.height(), {0.0, 0.5}, [&](int y) { return value_of_row(params, y); },
                   [&](double value) { return row_of_value(params, value); })
             : some_rows(down(params), row_count, seed);
+    const std::vector<double> stretches = values_between(
+        deep(params), params.depth(), {0.5}, [&](int z) { return value_of_slice(params, z); },
+        [&](double value) { return slice_of_value(params, value); });
+    std::vector<Place> rows;
+    for (std::size_t i = 0; i < downs.size(); ++i) {
+        if (!is_volume(params))
+            rows.push_back({downs[i]});
+        else if (probing == Probing::some)
+            rows.push_back({downs[i], stretches[i * 7 % stretches.size()]});
+        else
+            for (const double stretch : stretches) rows.push_back({downs[i], stretch});
+    }
     Prober prober(params, table, truth, context);
     prober.prepare(rows);
     std::vector<SampledErrors> found(rows.size());

@@ -9,10 +9,12 @@
 #include "pbr/brdf/clear_coat.hpp"
 #include "pbr/brdf/disney_diffuse.hpp"
 #include "pbr/brdf/eon.hpp"
+#include "pbr/brdf/fresnel.hpp"
 #include "pbr/brdf/hammon.hpp"
 #include "pbr/brdf/multiscatter.hpp"
 #include "pbr/brdf/roughness.hpp"
 #include "pbr/brdf/subsurface.hpp"
+#include "pbr/ibl/dfg_anisotropic.hpp"
 
 namespace pbrbake::dfg {
 namespace {
@@ -39,6 +41,8 @@ Columns ggx(Row& row) { return in_form(row.params().form, row.ggx()); }
 Columns uncorrelated(Row& row) {
     return in_form(row.params().form, row.ggx_of(pbr::DfgVisibility::uncorrelated, "uncorrelated"));
 }
+
+Columns ggx_anisotropic(Row& row) { return in_form(row.params().form, row.ggx_anisotropic()); }
 
 Columns disney_diffuse(Row& row) {
     constexpr std::uint64_t kGaussPoints = 5;  // of the closed form
@@ -111,6 +115,7 @@ struct TermKind {
     Columns (*evaluate)(Row&);
     bool is_of_ggx = false;
     bool is_over_curvature = false;
+    bool is_volume = false;
 };
 
 constexpr std::array kTermKinds{
@@ -128,6 +133,7 @@ constexpr std::array kTermKinds{
     TermKind{Term::chan, single, chan},
     TermKind{Term::hammon, single, hammon},
     TermKind{Term::subsurface, single, subsurface, false, true},
+    TermKind{Term::ggx_anisotropic, form_names, ggx_anisotropic, false, false, true},
 };
 
 const TermKind& kind_of(Term term) {
@@ -137,11 +143,11 @@ const TermKind& kind_of(Term term) {
 
 }  // namespace
 
-Row::Row(const DfgParams& params, const pbr::DfgMethod& method, double down, std::span<const double> across,
+Row::Row(const DfgParams& params, const pbr::DfgMethod& method, Place place, std::span<const double> across,
          Context& context, std::string_view counter_prefix)
     : params_(params),
       method_(method),
-      down_(down),
+      place_(place),
       across_(across),
       context_(context),
       counter_prefix_(counter_prefix) {}
@@ -173,11 +179,33 @@ Row::Ggx Row::ggx_of(pbr::DfgVisibility visibility, std::string_view effect) {
     return lobe;
 }
 
+Row::Ggx Row::ggx_anisotropic() {
+    const double along = alpha();
+    Ggx lobe{std::vector<double>(views(), 1.0), std::vector<double>(views())};
+    if (along == 0) {
+        std::transform(across_.begin(), across_.end(), lobe.Fc.begin(), pbr::schlick_weight<double>);
+        return lobe;
+    }
+    const pbr::DfgRule rule = pbr::dfg_anisotropic_rule(method_.rule.max_error);
+    std::uint64_t evaluations = 0;
+    for (std::size_t first = 0; first < views(); first += kViewsACall) {
+        context_.check_cancelled();
+        const auto views_here = across_.subspan(first, std::min(kViewsACall, views() - first));
+        pbr::dfg_ggx_anisotropic_row(views_here, {}, {along, along * place_.stretch}, rule,
+                                     std::span(lobe.E).subspan(first, views_here.size()),
+                                     std::span(lobe.Fc).subspan(first, views_here.size()));
+        for (const double NoV : views_here)
+            evaluations += 4 * static_cast<std::uint64_t>(rule.evaluations(NoV));
+    }
+    count("ggx_anisotropic", evaluations);
+    return lobe;
+}
+
 void Row::count(std::string_view effect, std::uint64_t evaluations) {
     context_.count(std::string(counter_prefix_).append(effect), evaluations);
 }
 
-double Row::alpha() const { return pbr::alpha_from_perceptual_roughness(down_); }
+double Row::alpha() const { return pbr::alpha_from_perceptual_roughness(place_.down); }
 
 std::vector<std::string> channel_names(const DfgParams& params) {
     std::vector<std::string> all;
@@ -188,6 +216,10 @@ std::vector<std::string> channel_names(const DfgParams& params) {
 }
 
 bool is_of_ggx(Term term) { return kind_of(term).is_of_ggx; }
+
+bool is_volume(Term term) { return kind_of(term).is_volume; }
+
+bool is_volume(const DfgParams& params) { return is_volume(params.terms.front()); }
 
 bool is_over_curvature(Term term) { return kind_of(term).is_over_curvature; }
 

@@ -65,8 +65,10 @@ std::vector<std::byte> encode_c_header(const Image& image, const FileInfo& info)
     const Level& level = image.levels.front();
     const std::string name = identifier(info.name), guard = "PBRBAKE_" + name + "_H";
     const bool is_float = info.pixel == PixelType::float32;
-    std::string file = "// Texel (x, y), channel c, is " + name + "_texels[(y * " + name + "_width + x) * " +
-                       name + "_channels + c]: " +
+    const std::string row = image.is_volume ? "(z * " + name + "_height + y)" : "y";
+    std::string file = std::string("// Texel (x, y") + (image.is_volume ? ", z" : "") + "), channel c, is " +
+                       name + "_texels[(" + row + " * " + name + "_width + x) * " + name +
+                       "_channels + c]: " +
                        (is_float                        ? "floats"
                         : info.pixel == PixelType::half ? "the bits of 16-bit floats"
                                                         : "0 to 65535 for 0 to 1") +
@@ -76,7 +78,8 @@ std::vector<std::byte> encode_c_header(const Image& image, const FileInfo& info)
     file += "#ifndef " + guard + "\n#define " + guard + "\n\n";
     if (!is_float) file += "#include <stdint.h>\n\n";
     file += "enum {\n    " + name + "_width = " + std::to_string(level.width) + ",\n    " + name +
-            "_height = " + std::to_string(level.height) + ",\n    " + name +
+            "_height = " + std::to_string(level.height) + ",\n    " +
+            (image.is_volume ? name + "_depth = " + std::to_string(image.faces) + ",\n    " : "") + name +
             "_channels = " + std::to_string(image.channels.size()) + "\n};\n\n";
     file += std::string("static const ") + (is_float ? "float " : "uint16_t ") + name + "_texels[" +
             std::to_string(level.texels.size()) + "] = {\n" + numbers(image, info.pixel) + "};\n\n#endif\n";

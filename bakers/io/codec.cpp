@@ -24,12 +24,13 @@ void check_channels(const Image& image) {
 }
 
 void check_shape(const Image& image) {
-    if (image.faces != 1 && image.faces != 6)
-        throw unwritable("the image has " + std::to_string(image.faces) + " faces; 1 or 6 can be written");
+    if (image.is_volume ? image.faces < 1 || image.levels.size() > 1 : image.faces != 1 && image.faces != 6)
+        throw unwritable("the image has " + std::to_string(image.faces) +
+                         " faces; 1 or 6 can be written, and volumes of one level");
     if (image.levels.empty()) throw unwritable("the image has no levels");
     const Level& base = image.levels.front();
     if (base.width < 1 || base.height < 1) throw unwritable("the image has no texels");
-    if (image.faces == 6 && base.width != base.height) throw unwritable("cube map faces must be square");
+    if (image.is_cube() && base.width != base.height) throw unwritable("cube map faces must be square");
     for (std::size_t l = 0; l < image.levels.size(); ++l) {
         const Level& level = image.levels[l];
         const std::string which = "level " + std::to_string(l);
@@ -51,7 +52,9 @@ void check_fits(const Format& format, const Image& image) {
     if (image.channel_count() > format.max_channels)
         throw unwritable(name + " holds up to " + std::to_string(format.max_channels) +
                          " channels; the image has " + std::to_string(image.channel_count()) + ": use exr");
-    if (!format.is_chain && (image.faces != 1 || image.levels.size() != 1))
+    if (image.is_volume && !format.is_volume)
+        throw unwritable(name + " holds no volumes: use ktx2, dds or h");
+    if (!format.is_chain && !image.is_volume && (image.faces != 1 || image.levels.size() != 1))
         throw unwritable(name + " holds neither cube maps nor mip levels: use exr, ktx2 or dds");
 }
 

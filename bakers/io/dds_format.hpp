@@ -1,6 +1,6 @@
 #pragma once
 // The part of DDS that we write: uncompressed float, 16-bit and 8-bit textures with a DX10 header, 2D and
-// cube, with mip levels. (Microsoft, "Programming Guide for DDS"; names as there.)
+// cube with mip levels, 3D without. (Microsoft, "Programming Guide for DDS"; names as there.)
 
 #include <array>
 #include <cstdint>
@@ -31,9 +31,11 @@ inline constexpr std::uint32_t kFlags = 0x1 | 0x2 | 0x4 | 0x8 | 0x1000, kFlagLev
 inline constexpr std::uint32_t kPixelFourCc = 0x4;
 /// DDSCAPS_TEXTURE; COMPLEX; MIPMAP.
 inline constexpr std::uint32_t kCapsTexture = 0x1000, kCapsComplex = 0x8, kCapsMipmap = 0x400000;
+/// DDSD_DEPTH and DDSCAPS2_VOLUME.
+inline constexpr std::uint32_t kFlagDepth = 0x800000, kCaps2Volume = 0x200000;
 /// DDSCAPS2_CUBEMAP and its six faces.
 inline constexpr std::uint32_t kCaps2Cube = 0x200 | 0xFC00;
-inline constexpr std::uint32_t kDimension2d = 3, kMiscCube = 0x4;
+inline constexpr std::uint32_t kDimension2d = 3, kDimension3d = 4, kMiscCube = 0x4;
 
 struct Format {
     std::uint32_t dxgi_format;

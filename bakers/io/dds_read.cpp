@@ -28,9 +28,18 @@ dds::Format check_header(const dds::Header& header, const std::string& where) {
         refuse("has no DX10 header");
     const auto format = format_of(header.dxgi_format);
     if (!format) refuse("has DXGI format " + std::to_string(header.dxgi_format));
-    if (header.dimension != dds::kDimension2d || header.array_size != 1) refuse("is volumetric or an array");
-    const bool is_cube = (header.misc & dds::kMiscCube) != 0;
-    check_limits(header.width, header.height, (is_cube ? 6 : 1) * 4. * format->channels, where, {});
+    const bool is_cube = (header.misc & dds::kMiscCube) != 0,
+               is_volume = header.dimension == dds::kDimension3d;
+    if ((header.dimension != dds::kDimension2d && !is_volume) || header.array_size != 1)
+        refuse("is an array or 1D");
+    if (is_volume && (is_cube || header.levels > 1 || header.depth < 1))
+        refuse("is a volume with faces or levels, or without slices");
+    check_limits(header.width, header.height,
+                 (is_cube     ? 6
+                  : is_volume ? header.depth
+                              : 1) *
+                     4. * format->channels,
+                 where, {});
     if (is_cube && header.width != header.height) refuse("has faces that are not square");
     const auto most = static_cast<std::uint32_t>(std::bit_width(std::max(header.width, header.height)));
     if (header.levels > most) refuse("has " + std::to_string(header.levels) + " levels");
@@ -48,7 +57,10 @@ ReadBack read_dds_product(Bytes file, const std::string& where) {
     back.format = "dds";
     back.info.pixel = format.pixel;
     back.image.transfer = format.transfer;
-    back.image.faces = (header.misc & dds::kMiscCube) != 0 ? 6 : 1;
+    back.image.is_volume = header.dimension == dds::kDimension3d;
+    back.image.faces = back.image.is_volume                  ? static_cast<int>(header.depth)
+                       : (header.misc & dds::kMiscCube) != 0 ? 6
+                                                             : 1;
     back.image.channels = {"R", "G", "B", "A"};
     back.image.channels.resize(static_cast<std::size_t>(format.channels));
 

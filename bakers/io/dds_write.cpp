@@ -25,23 +25,25 @@ dds::Format format_for(int channels, PixelType pixel, Transfer transfer) {
 
 dds::Header header_of(const Image& image, const dds::Format& format) {
     const Level& base = image.levels.front();
-    const bool is_cube = image.faces == 6, has_levels = image.levels.size() > 1;
+    const bool is_cube = image.is_cube(), has_levels = image.levels.size() > 1;
     dds::Header header{};
     header.magic = dds::kMagic;
     header.size = 124;
-    header.flags = dds::kFlags | (has_levels ? dds::kFlagLevels : 0);
+    header.flags =
+        dds::kFlags | (has_levels ? dds::kFlagLevels : 0) | (image.is_volume ? dds::kFlagDepth : 0);
     header.height = static_cast<std::uint32_t>(base.height);
     header.width = static_cast<std::uint32_t>(base.width);
     header.pitch = header.width * format.texel_bytes();
+    header.depth = image.is_volume ? static_cast<std::uint32_t>(image.faces) : 0;
     header.levels = static_cast<std::uint32_t>(image.levels.size());
     header.format.size = sizeof(dds::PixelFormat);
     header.format.flags = dds::kPixelFourCc;
     header.format.four_cc = dds::kFourCcDx10;
-    header.caps = dds::kCapsTexture | (is_cube || has_levels ? dds::kCapsComplex : 0) |
+    header.caps = dds::kCapsTexture | (is_cube || has_levels || image.is_volume ? dds::kCapsComplex : 0) |
                   (has_levels ? dds::kCapsMipmap : 0);
-    header.caps2 = is_cube ? dds::kCaps2Cube : 0;
+    header.caps2 = is_cube ? dds::kCaps2Cube : image.is_volume ? dds::kCaps2Volume : 0;
     header.dxgi_format = format.dxgi_format;
-    header.dimension = dds::kDimension2d;
+    header.dimension = image.is_volume ? dds::kDimension3d : dds::kDimension2d;
     header.misc = is_cube ? dds::kMiscCube : 0;
     header.array_size = 1;  // of cubes
     return header;

@@ -24,8 +24,8 @@ struct Decoded {
     std::string units = "relative";
 };
 
-/// An OpenEXR file in memory.
-Decoded decode_exr(Bytes file, const std::string& where, const ReadLimits& limits);
+/// An OpenEXR file, read as it is decoded.
+Decoded decode_exr(const File& file, const ReadLimits& limits);
 
 /// A file in a format that OpenImageIO reads for us.
 enum class ForeignFormat { hdr, png, tiff, targa, jpeg };

@@ -6,11 +6,27 @@
 
 namespace pbrbake::io {
 
-bool ExrInput::read(char out[], int count) {
-    const auto wanted = static_cast<uint64_t>(std::max(count, 0));
-    if (count < 0 || position_ > file_.size() || wanted > file_.size() - position_)
+namespace {
+
+/// How many bytes to read, if a file of `size` has them.
+std::size_t checked_count(int count, uint64_t position, uint64_t size) {
+    if (count < 0 || position > size || static_cast<uint64_t>(count) > size - position)
         throw Iex::InputExc("Unexpected end of file.");
+    return static_cast<std::size_t>(count);
+}
+
+}  // namespace
+
+bool ExrInput::read(char out[], int count) {
+    const std::size_t wanted = checked_count(count, position_, file_.size());
     std::memcpy(out, file_.data() + position_, wanted);
+    position_ += wanted;
+    return position_ < file_.size();
+}
+
+bool ExrFileInput::read(char out[], int count) {
+    const std::size_t wanted = checked_count(count, position_, file_.size());
+    file_.read(position_, std::as_writable_bytes(std::span(out, wanted)));
     position_ += wanted;
     return position_ < file_.size();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// OpenEXR's streams over memory.
+// OpenEXR's streams over files and memory.
 
 #include <ImfIO.h>
 
@@ -19,6 +19,20 @@ class ExrInput : public Imf::IStream {
 
   private:
     Bytes file_;
+    uint64_t position_ = 0;
+};
+
+/// Reads an open file, as far as OpenEXR asks; throws Iex::InputExc past its end. `file` must outlive the
+/// stream.
+class ExrFileInput : public Imf::IStream {
+  public:
+    explicit ExrFileInput(const File& file) : Imf::IStream(file.where().c_str()), file_(file) {}
+    bool read(char out[], int count) override;
+    uint64_t tellg() override { return position_; }
+    void seekg(uint64_t position) override { position_ = position; }
+
+  private:
+    const File& file_;
     uint64_t position_ = 0;
 };
 

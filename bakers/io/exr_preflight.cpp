@@ -53,7 +53,10 @@ class Walk {
   private:
     void need(std::size_t size) const {
         if (size > file_.size() - at_)
-            throw unreadable(where_, "is truncated: its header runs past the file's end");
+            throw unreadable(where_, file_.size() == kMostHeaderBytes
+                                         ? "has a header of more than " + std::to_string(kMostHeaderBytes) +
+                                               " bytes, or a malformed one"
+                                         : "is truncated: its header runs past the file's end");
     }
     Bytes file_;
     const std::string& where_;
@@ -155,9 +158,10 @@ double chunk_count(const Part& part) {
     return std::ceil(w / part.tiles->width) * std::ceil(h / part.tiles->height);
 }
 
-void check_part(const Part& part, Bytes file, const std::string& where, const ReadLimits& limits) {
+void check_part(const Part& part, std::uint64_t file_size, const std::string& where,
+                const ReadLimits& limits) {
     check_limits(part.width, part.height, kRgbBytes, where, limits);
-    const double size = static_cast<double>(file.size());
+    const double size = static_cast<double>(file_size);
     const double texels = static_cast<double>(part.width) * static_cast<double>(part.height);
     const double raw_bytes = texels * part.texel_bytes;
     if (part.tiles) {
@@ -174,14 +178,14 @@ void check_part(const Part& part, Bytes file, const std::string& where, const Re
         least = std::max(least, raw_bytes / ratio);
     if (least > size)
         throw unreadable(where, "claims " + std::to_string(part.width) + " x " + std::to_string(part.height) +
-                                    " texels, which can't be in the file's " + std::to_string(file.size()) +
+                                    " texels, which can't be in the file's " + std::to_string(file_size) +
                                     " bytes: it is truncated or malformed");
 }
 
 }  // namespace
 
-void preflight_exr(Bytes file, const std::string& where, const ReadLimits& limits) {
-    Walk walk(file, where);
+void preflight_exr(Bytes head, std::uint64_t size, const std::string& where, const ReadLimits& limits) {
+    Walk walk(head, where);
     walk.block(4);  // magic
     const auto version = walk.number<std::uint32_t>();
     if ((version & 0xFF) != 2) throw unreadable(where, "has EXR version " + std::to_string(version & 0xFF));
@@ -195,7 +199,7 @@ void preflight_exr(Bytes file, const std::string& where, const ReadLimits& limit
             throw unreadable(where, "holds deep pixels, which are not read");
         if (!multi_part && (version & kTiledFlag) && !part->tiles)
             throw unreadable(where, "is tiled but states no tile size");
-        check_part(*part, file, where, limits);
+        check_part(*part, size, where, limits);
         first = false;
         if (!multi_part) break;
     }

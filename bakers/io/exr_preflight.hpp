@@ -8,9 +8,13 @@
 
 namespace pbrbake::io {
 
-/// Throws Error(unreadable_input) for headers that end early, attributes longer than the file, sides or
-/// tables over the limits, and pictures that can't fit into the file's bytes at their compression's best
+/// As many of a file's first bytes as are looked at: no header is longer.
+inline constexpr std::uint64_t kMostHeaderBytes = std::uint64_t{16} << 20;
+
+/// `head`: the first bytes of a file of `size`, all or kMostHeaderBytes. Throws Error(unreadable_input) for
+/// headers that end early, attributes longer than the head, sides or tables
+/// over the limits, and pictures that can't fit into the file's bytes at their compression's best
 /// ratio.
-void preflight_exr(Bytes file, const std::string& where, const ReadLimits& limits);
+void preflight_exr(Bytes head, std::uint64_t size, const std::string& where, const ReadLimits& limits);
 
 }  // namespace pbrbake::io

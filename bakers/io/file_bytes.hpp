@@ -1,11 +1,13 @@
 #pragma once
-// Whole files in memory, and little-endian numbers in them.
+// Files in memory, whole or a part at a time, and little-endian numbers in them.
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +23,27 @@ using Bytes = std::span<const std::byte>;
 inline Error unreadable(const std::string& where, std::string message) {
     return Error(ExitCode::unreadable_input, where, std::move(message));
 }
+
+/// A regular file, open to be read at any place.
+class File {
+  public:
+    /// Throws Error(unreadable_input) for what is absent, not a regular file, or longer than `max_bytes`.
+    File(const std::filesystem::path& path, std::uint64_t max_bytes);
+
+    /// Bytes when it was opened.
+    std::uint64_t size() const { return size_; }
+    /// As opened, for messages.
+    const std::string& where() const { return where_; }
+    /// Fills `bytes` from `offset` on; throws Error(unreadable_input) where the file has fewer.
+    void read(std::uint64_t offset, std::span<std::byte> bytes) const;
+    /// The first bytes, at most `count`.
+    std::vector<std::byte> head(std::uint64_t count) const;
+
+  private:
+    std::string where_;
+    std::uint64_t size_ = 0;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+};
 
 /// The file's bytes. Throws Error(unreadable_input) for what is absent, not a regular file, or longer than
 /// `max_bytes`.

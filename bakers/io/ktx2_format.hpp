@@ -1,5 +1,5 @@
 #pragma once
-// The part of KTX 2.0 that we write: uncompressed float, 16-bit and 8-bit textures, 2D and cube.
+// The part of KTX 2.0 that we write: uncompressed float, 16-bit and 8-bit textures, 2D, cube and 3D.
 // Section titles refer to the KTX File Format Specification 2.0, and KDF to the Khronos Data Format
 // Specification 1.3.
 

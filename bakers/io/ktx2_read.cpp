@@ -29,11 +29,14 @@ ktx2::Format check_header(const ktx2::Header& header, const std::string& where) 
     if (!format) refuse("has vkFormat " + std::to_string(header.vk_format));
     if (header.type_size != format->component_bytes())
         refuse("has typeSize " + std::to_string(header.type_size));
-    if (header.depth != 0 || header.layers != 0) refuse("is volumetric or an array");
+    if (header.layers != 0) refuse("is an array");
+    if (header.depth != 0 && (header.faces != 1 || header.levels != 1))
+        refuse("is a volume with faces or levels");
     if (header.faces != 1 && header.faces != 6) refuse("has " + std::to_string(header.faces) + " faces");
     if (header.supercompression != 0 || header.sgd_size != 0 || header.sgd_offset != 0)
         refuse("is supercompressed");
-    check_limits(header.width, header.height, header.faces * 4. * format->channels, where, {});
+    check_limits(header.width, header.height, std::max(header.faces, header.depth) * 4. * format->channels,
+                 where, {});
     if (header.faces == 6 && header.width != header.height) refuse("has faces that are not square");
     const auto most = static_cast<std::uint32_t>(std::bit_width(std::max(header.width, header.height)));
     if (header.levels < 1 || header.levels > most) refuse("has " + std::to_string(header.levels) + " levels");
@@ -111,12 +114,13 @@ ReadBack read_ktx2_product(Bytes file, const std::string& where) {
     back.image.channels = take_channels(back.info.metadata, format.channels, where);
     back.info.metadata.erase("KTXwriter");
     back.info.metadata.erase("KTXorientation");
-    back.image.faces = static_cast<int>(header.faces);
+    back.image.is_volume = header.depth != 0;
+    back.image.faces = static_cast<int>(std::max(header.faces, header.depth));
     for (std::uint32_t l = 0; l < header.levels; ++l) {
         const auto entry = load<ktx2::LevelEntry>(index, l * sizeof(ktx2::LevelEntry));
         const std::uint32_t width = std::max(1u, header.width >> l),
                             height = std::max(1u, header.height >> l);
-        const std::uint64_t count = std::uint64_t{header.faces} * width * height;
+        const std::uint64_t count = static_cast<std::uint64_t>(back.image.faces) * width * height;
         if (entry.size != count * format.texel_bytes() || entry.uncompressed_size != entry.size)
             throw unreadable(where, "level " + std::to_string(l) + " has the wrong size");
         const Bytes data = section(file, entry.offset, entry.size, "texels", where);

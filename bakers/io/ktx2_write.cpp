@@ -80,7 +80,8 @@ std::vector<std::byte> key_value_data(const Image& image, const FileInfo& info) 
     for (const auto& [key, value] : entries)
         if (key.starts_with("KTX") || key.starts_with("ktx"))
             throw unwritable("metadata '" + key + "': KTX2 keeps keys that begin with KTX for itself");
-    entries["KTXorientation"] = "rd";  // the only one that cube maps may have, and what our 2D pictures are
+    // The only one that cube maps may have, and what our 2D pictures are; slices go inwards.
+    entries["KTXorientation"] = image.is_volume ? "rdi" : "rd";
     entries["KTXwriter"] = "pbrbake " PBRBAKE_VERSION;
     entries[kChannelsKey] = join_channels(image.channels);
     Writer out;
@@ -126,7 +127,8 @@ std::vector<std::byte> encode_ktx2(const Image& image, const FileInfo& info) {
     header.type_size = format->component_bytes();
     header.width = static_cast<std::uint32_t>(base.width);
     header.height = static_cast<std::uint32_t>(base.height);
-    header.faces = static_cast<std::uint32_t>(image.faces);
+    header.depth = image.is_volume ? static_cast<std::uint32_t>(image.faces) : 0;
+    header.faces = image.is_volume ? 1 : static_cast<std::uint32_t>(image.faces);
     header.levels = static_cast<std::uint32_t>(levels);
     header.dfd_offset = static_cast<std::uint32_t>(sizeof(ktx2::Header) + levels * sizeof(ktx2::LevelEntry));
     header.dfd_size = static_cast<std::uint32_t>(dfd.size());

@@ -1,11 +1,11 @@
 // Rounding to what a pixel type can store.
 
-#include <ImathConfig.h>
-#include <half.h>
-
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <span>
 
 #include "bakers/io/io.hpp"
 #include "bakers/io/rgbe.hpp"
@@ -30,24 +30,41 @@ double limit_of(PixelType pixel) {
     return 0;
 }
 
-float round_to(float value, PixelType pixel) {
-    if (std::isnan(value)) return value;
-    const auto to_steps = [&](double steps) {
-        return static_cast<float>(std::nearbyint(std::clamp(static_cast<double>(value), 0., 1.) * steps) /
-                                  steps);
-    };
-    switch (pixel) {
-        case PixelType::half:
-            return static_cast<float>(half(value));
-        case PixelType::float32:
-        case PixelType::rgbe:
-            return value;
-        case PixelType::unorm16:
-            return to_steps(65535);
-        case PixelType::unorm8:
-            break;  // round_to_unorm8
+/// The largest finite value, or magnitude where values are signed; 0 if there is none. Floats of one sign are
+/// ordered as their bits are, and a maximum of integers is found many at once.
+float peak_of(std::span<const float> values, bool is_signed) {
+    constexpr std::int32_t kInfinity = 0x7f800000, kMagnitude = 0x7fffffff;
+    const std::int32_t kept = is_signed ? kMagnitude : -1;
+    std::int32_t peak = 0;
+    for (const float value : values) {
+        const std::int32_t bits = std::bit_cast<std::int32_t>(value) & kept;
+        peak = std::max(peak, bits < kInfinity ? bits : 0);
     }
-    return value;
+    return std::bit_cast<float>(peak);
+}
+
+/// Scales and rounds to halves, to even where two are as near; no value may scale to 65,520 or more but
+/// infinities. Both roundings are found and one is chosen, so that many values are rounded at once.
+void round_to_half(std::span<float> values, float scale) {
+    constexpr std::uint32_t kMagnitude = 0x7fffffff, kInfinity = 0x7f800000;
+    constexpr std::uint32_t kSmallestNormal = 113u << 23;  // 2^-14
+    for (float& value : values) {
+        const auto bits = std::bit_cast<std::uint32_t>(value * scale);
+        const std::uint32_t magnitude = bits & kMagnitude;
+        const std::uint32_t normal = (magnitude + 0xfff + (magnitude >> 13 & 1)) & ~0x1fffu;
+        // Floats beside 1/2 are as far apart as the halves below 2^-14.
+        const float shifted = std::bit_cast<float>(std::min(magnitude, kSmallestNormal)) + 0.5f;
+        const auto subnormal = std::bit_cast<std::uint32_t>(shifted - 0.5f);
+        const std::uint32_t rounded = magnitude < kSmallestNormal ? subnormal : normal;
+        value = std::bit_cast<float>((bits & ~kMagnitude) | (magnitude > kInfinity ? magnitude : rounded));
+    }
+}
+
+void round_to_unorm16(std::span<float> values, float scale) {
+    for (float& value : values)
+        if (!std::isnan(value))
+            value = static_cast<float>(
+                std::nearbyint(std::clamp(static_cast<double>(value * scale), 0., 1.) * 65535) / 65535);
 }
 
 /// Rounds texels to RGBE. With 8 bits a flat region would be off by up to .4 % everywhere; so what rounding
@@ -71,10 +88,28 @@ void round_to_rgbe(std::vector<float>& texels, std::size_t channels) {
 
 void round_to_unorm8(Level& level, const Image& image, float scale) {
     const std::size_t channels = image.channels.size();
-    for (std::size_t i = 0; i < level.texels.size(); ++i) {
-        const Transfer transfer = channel_transfer(image, i % channels);
-        if (!std::isnan(level.texels[i]))
-            level.texels[i] = from_unorm8(unorm8_of(level.texels[i] * scale, transfer), transfer);
+    for (std::size_t c = 0; c < channels; ++c) {
+        const Transfer transfer = channel_transfer(image, c);
+        for (std::size_t i = c; i < level.texels.size(); i += channels) {
+            float& value = level.texels[i];
+            if (!std::isnan(value)) value = from_unorm8(unorm8_of(value * scale, transfer), transfer);
+        }
+    }
+}
+
+void round_to(PixelType pixel, const Image& image, float scale, Level& level) {
+    switch (pixel) {
+        case PixelType::half:
+            return round_to_half(level.texels, scale);
+        case PixelType::float32:
+            return;
+        case PixelType::unorm16:
+            return round_to_unorm16(level.texels, scale);
+        case PixelType::unorm8:
+            return round_to_unorm8(level, image, scale);
+        case PixelType::rgbe:
+            for (float& value : level.texels) value *= scale;
+            return round_to_rgbe(level.texels, image.channels.size());
     }
 }
 
@@ -85,22 +120,13 @@ double quantise(std::vector<Image>& images, PixelType pixel) {
     double peak = 0;
     for (const Image& image : images)
         for (const Level& level : image.levels)
-            for (const float value : level.texels)
-                if (std::isfinite(value))
-                    peak = std::max(peak, static_cast<double>(is_signed ? std::abs(value) : value));
+            peak = std::max(peak, static_cast<double>(peak_of(level.texels, is_signed)));
 
     double scale = 1;
     while (peak * scale > limit_of(pixel)) scale /= 2;
 
     for (Image& image : images)
-        for (Level& level : image.levels) {
-            if (pixel == PixelType::unorm8) {
-                round_to_unorm8(level, image, static_cast<float>(scale));
-                continue;
-            }
-            for (float& value : level.texels) value = round_to(static_cast<float>(value * scale), pixel);
-            if (pixel == PixelType::rgbe) round_to_rgbe(level.texels, image.channels.size());
-        }
+        for (Level& level : image.levels) round_to(pixel, image, static_cast<float>(scale), level);
     return scale;
 }
 

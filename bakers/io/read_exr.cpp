@@ -148,10 +148,11 @@ void read_statements(const Imf::Header& header, const std::string& where, Decode
 
 }  // namespace
 
-Decoded decode_exr(Bytes file, const std::string& where, const ReadLimits& limits) {
-    preflight_exr(file, where, limits);
+Decoded decode_exr(const File& file, const ReadLimits& limits) {
+    const std::string& where = file.where();
+    preflight_exr(file.head(kMostHeaderBytes), file.size(), where, limits);
     try {
-        ExrInput stream(file, where);
+        ExrFileInput stream(file);
         Imf::MultiPartInputFile input(stream, 0, false);
         const Imf::Header& header = input.header(0);
         const bool cube = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE;

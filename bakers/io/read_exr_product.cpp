@@ -135,7 +135,7 @@ void read_levels(Imf::MultiPartInputFile& input, bool cube, const std::string& w
 
 ReadBack read_exr_product(Bytes file, const std::string& where) {
     const ReadLimits limits;
-    preflight_exr(file, where, limits);
+    preflight_exr(file, file.size(), where, limits);
     try {
         ExrInput stream(file, where);
         Imf::MultiPartInputFile input(stream, 0, false);

@@ -26,13 +26,20 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-Decoded decode(Bytes file, const ReadRequest& request) {
+/// An EXR is read as it is decoded: stored uncompressed it is as large as its texels, and both together would
+/// double what a bake takes.
+Decoded decode(const File& file, const ReadRequest& request, SourceImage& source) {
     using namespace std::string_view_literals;
-    const std::string where = request.path.string();
-    if (file.empty()) throw unreadable(where, "is empty");
-    if (begins_with(file, "\x76\x2f\x31\x01"sv)) return decode_exr(file, where, request.limits);
-    if (const auto format = foreign_format(file, lower_extension(request.path)))
-        return decode_foreign(*format, file, where, request.limits, request.with_alpha);
+    const std::string& where = file.where();
+    if (file.size() == 0) throw unreadable(where, "is empty");
+    if (begins_with(file.head(4), "\x76\x2f\x31\x01"sv)) {
+        source.hash = hash_file(request.path);
+        return decode_exr(file, request.limits);
+    }
+    const std::vector<std::byte> bytes = file.head(file.size());
+    source.hash = hash_bytes(bytes.data(), bytes.size());
+    if (const auto format = foreign_format(bytes, lower_extension(request.path)))
+        return decode_foreign(*format, bytes, where, request.limits, request.with_alpha);
     throw unreadable(where,
                      "is none of the formats that are read: EXR, HDR (RGBE), PNG, TIFF, TGA (.tga), JPEG");
 }
@@ -82,11 +89,8 @@ SourceImage read_source(const ReadRequest& request) {
                     "unknown working space '" + request.working_space + "'; allowed: lin_rec709, acescg");
     try {
         // A file's bytes are at most as many as its decoded texels take, but for channels that aren't read.
-        std::vector<std::byte> bytes = read_file(request.path, request.limits.max_decoded_bytes * 2);
         SourceImage source;
-        source.hash = hash_bytes(bytes.data(), bytes.size());
-        Decoded decoded = decode(bytes, request);
-        bytes = {};  // as large as the texels, where these are stored uncompressed
+        Decoded decoded = decode(File(request.path, request.limits.max_decoded_bytes * 2), request, source);
         source.units = decoded.units;
 
         repair_non_finite(decoded.rgb, source.repairs);

@@ -22,7 +22,6 @@ using parse::LightUnit;
 using parse::Severity;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kHalfMax = 65504;
 /// A light counts as gone where it gives 1/256 of what its reference white gets: the last step of 8 bits.
 constexpr double kLastStep = 1. / 256;
 /// A colour or intensity below it is none.
@@ -247,7 +246,13 @@ class Conversion {
         result_.span_m.near = std::min(result_.span_m.near, .05 * kFarthest_m);
         if (params_.far_m > 0) result_.span_m.far = params_.far_m;
         if (params_.near_m > 0) result_.span_m.near = params_.near_m;
-        if (result_.span_m.near >= result_.span_m.far) result_.span_m.near = .05 * result_.span_m.far;
+        if (result_.span_m.near < result_.span_m.far) return;
+        result_.span_m.near = .05 * result_.span_m.far;
+        if (params_.near_m > 0)
+            add(Severity::warning, "near_m_beyond_reach",
+                "matters up to " + parse::number_text(result_.span_m.far) + " m; near_m is " +
+                    parse::number_text(params_.near_m) + ", and " + parse::number_text(result_.span_m.near) +
+                    " is taken");
     }
 
     void fit() {

@@ -13,6 +13,9 @@
 
 namespace pbrbake::light {
 
+/// The largest finite half float.
+inline constexpr double kHalfMax = 65504;
+
 /// What a light's numbers are taken to be worth.
 struct Anchor {
     double reference_lx;  ///< illuminance that a relative 1 stands for

@@ -15,7 +15,6 @@ using parse::LightType;
 using parse::number_text;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kHalfMax = 65504;
 constexpr int kCurvePoints = 17;
 
 const char* severity_name(parse::Severity severity) {

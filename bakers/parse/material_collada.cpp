@@ -94,12 +94,7 @@ class Collada {
             material.specular_factor = channel(shader.child("specular"), material.specular);
         if (const pugi::xml_node shininess = shader.child("shininess").child("float"))
             read_shininess(shininess, material);
-        MaterialMap emission;
-        material.emissive = channel(shader.child("emission"), emission).value_or(glm::dvec3(0));
-        if (!emission.path.empty()) {
-            material.emissive = glm::dvec3(0);
-            warn(material, "emission", "the texture of <emission> isn't converted; left out");
-        }
+        material.emissive_factor = channel(shader.child("emission"), material.emissive);
         read_transparency(shader, material);
         for (const pugi::xml_node& owner : {technique, profile_, effect}) read_bump(owner, material);
         material.double_sided =
@@ -215,7 +210,7 @@ class Collada {
         const pugi::xml_node from = image->second.child("init_from");
         const std::string_view uri =
             trimmed(from.child("ref") ? from.child_value("ref") : from.child_value());
-        return {path_of_uri(uri), std::string("<").append(said).append(">"), line_of(from)};
+        return {path_of_uri(uri), std::string("<").append(said).append(">"), line_of(from), {}};
     }
 
     const std::string& file_;

@@ -63,9 +63,6 @@ class Gltf {
         };
         if (info->number({"texCoord"}, 0) != 0)
             note("texture_coordinates", " has texture coordinates of its own");
-        if (const auto extensions = info->object({"extensions"});
-            extensions && extensions->has("KHR_texture_transform"))
-            note("texture_transform", " moves the texture; left out");
         const JsonFields& texture = textures_[*index];
         if (const auto sampler = texture.index("sampler", samplers_.size()))
             material.is_clamped |= samplers_[*sampler].number({"wrapS"}, 0) == kClampToEdge;
@@ -74,7 +71,22 @@ class Gltf {
         const JsonFields& image = images_[*source];
         const std::string uri = image.text({"uri"}, "");
         if (uri.empty()) image.refuse("uri", "a picture in a file of its own (this one is in a buffer)");
-        return {uri.starts_with("data:") ? "data:" : path_of_uri(uri), key, 0};
+        return {uri.starts_with("data:") ? "data:" : path_of_uri(uri), texture.place() + " (" + key + ")", 0,
+                transform(*info)};
+    }
+
+    static UvTransform transform(const JsonFields& info) {
+        UvTransform result;
+        const auto extensions = info.object({"extensions"});
+        const auto given = extensions ? extensions->object({"KHR_texture_transform"}) : std::nullopt;
+        if (!given) return result;
+        const auto pair = [&](const char* key, glm::dvec2& value) {
+            if (const auto numbers = given->numbers({key}, 2)) value = {(*numbers)[0], (*numbers)[1]};
+        };
+        pair("offset", result.offset);
+        pair("scale", result.scale);
+        result.rotation = given->number({"rotation"}, 0);
+        return result;
     }
 
     LegacyMaterial read_material(const JsonFields& fields, const JsonFields& gloss, std::size_t i) const {
@@ -98,12 +110,18 @@ class Gltf {
             material.occlusion_strength = unit(*occlusion, "strength", 1);
         material.double_sided = fields.boolean("doubleSided", false);
         read_alpha(fields, material);
-        if (fields.has("emissiveTexture"))
-            material.diagnostics.push_back(
-                {Severity::warning, "emission", 0, "emissiveTexture isn't converted; left out"});
-        else
-            material.emissive = {emissive[0], emissive[1], emissive[2]};
+        material.emissive = map(fields, "emissiveTexture", material);
+        material.emissive_factor = strength(fields) * glm::dvec3(emissive[0], emissive[1], emissive[2]);
         return material;
+    }
+
+    static double strength(const JsonFields& fields) {
+        const auto extensions = fields.object({"extensions"});
+        const auto given =
+            extensions ? extensions->object({"KHR_materials_emissive_strength"}) : std::nullopt;
+        const double value = given ? given->number({"emissiveStrength"}, 1) : 1;
+        if (value < 0) given->refuse("emissiveStrength", "a number that is not negative");
+        return value;
     }
 
     static void read_alpha(const JsonFields& fields, LegacyMaterial& material) {
@@ -115,6 +133,7 @@ class Gltf {
         else if (mode != "OPAQUE")
             fields.refuse("alphaMode", "\"OPAQUE\", \"MASK\", \"BLEND\"");
         material.alpha_cutoff = fields.number({"alphaCutoff"}, .5);
+        if (material.alpha_cutoff < 0) fields.refuse("alphaCutoff", "a number that is not negative");
     }
 
     JsonFields root_;

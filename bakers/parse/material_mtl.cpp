@@ -1,6 +1,6 @@
 // Wavefront MTL ("Material Library File", Wavefront Technologies 1995): diffuse Kd, Blinn-Phong ks and
 // exponent Ns about the half vector. Factors multiply their maps. Keywords count in any case, as writers
-// vary.
+// vary. Pr and Pm are of Exocortex's PBR extension.
 
 #include <algorithm>
 #include <array>
@@ -70,7 +70,13 @@ class Mtl {
         }
     }
 
-    MaterialFile result() { return std::move(result_); }
+    /// Of materials of one name the first.
+    MaterialFile result() {
+        std::set<std::string> names;
+        std::erase_if(result_.materials,
+                      [&](const LegacyMaterial& each) { return !names.insert(each.name).second; });
+        return std::move(result_);
+    }
 
   private:
     void read_line(std::string_view line) {
@@ -96,8 +102,11 @@ class Mtl {
         material().name = name;
         material().line = line_;
         material().lobe = MaterialLobe::blinn_phong;
+        states_d_ = false;
         if (!names_.insert(material().name).second)
-            warn("twice", "newmtl " + parse::quoted(name) + " is there twice; the first counts");
+            result_.diagnostics.push_back({Severity::warning, "twice", line_,
+                                           "newmtl " + parse::quoted(name) +
+                                               " is there twice; the first counts"});
     }
 
     void warn(std::string code, std::string message) {
@@ -132,7 +141,7 @@ class Mtl {
         } else if (key == "ks") {
             material().specular_factor = colour(key, line);
         } else if (key == "ke") {
-            material().emissive = colour(key, line).value_or(glm::dvec3(0));
+            material().emissive_factor = colour(key, line);
         } else if (key == "ns") {
             material().exponent = number(key, take_word(line), kLargestExponent);
         } else if (key == "d") {
@@ -142,12 +151,15 @@ class Mtl {
                 word = take_word(line);
             }
             set_opacity(number(key, word, 1));
+            states_d_ = true;
         } else if (key == "tr") {
-            set_opacity(1 - number(key, take_word(line), 1));
+            set_transparency(number(key, take_word(line), 1));
         } else if (key == "illum") {
             set_illumination(take_word(line));
         } else if (key == "pr" || key == "pm") {
-            warn("pbr", parse::quoted(key) + " is of a PBR material already; left out");
+            material().lobe = MaterialLobe::metallic;
+            (key == "pr" ? material().perceptual_roughness : material().metallic) =
+                number(key, take_word(line), 1);
         }  // Ka, Ni, Tf, sharpness and the like have no part in what a surface reflects
     }
 
@@ -156,32 +168,43 @@ class Mtl {
         if (opacity < 1) material().alpha = AlphaMode::blend;
     }
 
+    /// Writers disagree whether Tr is 1 - d or d; one beside d says nothing new.
+    void set_transparency(double transparency) {
+        if (states_d_ && material().opacity_factor != 1 - transparency &&
+            std::abs(material().opacity_factor - (1 - transparency)) > 1e-3)
+            warn("transparency", "Tr " + number_text(transparency) + " isn't 1 - d; d counts");
+        if (!states_d_) set_opacity(1 - transparency);
+    }
+
     void set_illumination(std::string_view word) {
         const double model = number("illum", word, 10);
         if (model == 0) warn("unlit", "illum 0 is unlit; converted as a diffuse surface");
-        if (model < 2) material().lobe = MaterialLobe::none;
+        if (model < 2 && material().lobe != MaterialLobe::metallic) material().lobe = MaterialLobe::none;
         if (model == 4 || model == 6 || model == 7 || model == 9)
             warn("glass", "illum " + std::string(word) + " is glass; what passes through it is left out");
     }
 
     bool read_map(const std::string& key, std::string_view line) {
-        static const std::array<std::pair<std::string_view, MaterialMap LegacyMaterial::*>, 7> kMaps{
+        static const std::array<std::pair<std::string_view, MaterialMap LegacyMaterial::*>, 8> kMaps{
             {{"map_kd", &LegacyMaterial::diffuse},
              {"map_ks", &LegacyMaterial::specular},
              {"map_ns", &LegacyMaterial::gloss},
+             {"map_ke", &LegacyMaterial::emissive},
              {"map_d", &LegacyMaterial::opacity},
              {"map_bump", &LegacyMaterial::normal},
              {"bump", &LegacyMaterial::normal},
              {"norm", &LegacyMaterial::normal}}};
         const auto found = std::ranges::find(kMaps, key, [](const auto& entry) { return entry.first; });
         if (found == kMaps.end()) {
-            if (key == "map_ke") warn("emission", "map_Ke isn't converted; left out");
+            if (key == "map_pr" || key == "map_pm")
+                warn("pbr_map", key + " isn't read: metallic and roughness are factors here; left out");
             return key.starts_with("map_") || key == "disp" || key == "decal" || key == "refl";
         }
         MaterialMap& map = material().*found->second;
         // norm says that it holds normals, which map_bump may or may not.
         if (key != "norm" && map.said == "norm") return true;
-        map = {std::string(after_options(key, line)), key, line_};
+        map = {{}, key, line_, {}};
+        map.path = after_options(map, line);
         std::ranges::replace(map.path, '\\', '/');
         if (map.path.empty())
             throw malformed(file_, line_, "found " + parse::quoted(key) + " without a file");
@@ -189,37 +212,63 @@ class Mtl {
         return true;
     }
 
-    /// What is left of a map's line: the file, whose name may hold blanks.
-    std::string_view after_options(const std::string& key, std::string_view line) {
+    /// Reads the options of a map; what is left of its line is the file, whose name may hold blanks.
+    std::string_view after_options(MaterialMap& map, std::string_view line) {
+        glm::dvec3 offset(0), scale(1);
         while (line.starts_with('-')) {
             std::string_view rest = line;
             const std::string name = lower(take_word(rest));
             const auto option = std::ranges::find(kMapOptions, name, &MapOption::name);
             if (option == kMapOptions.end()) break;  // a file may begin with a dash
-            bool is_neutral = true;
-            std::string_view word;
-            for (int i = 0; i < option->most; ++i) {
-                std::string_view after = rest;
-                word = take_word(after);
-                if (i >= option->least && !number_of(word)) break;
-                is_neutral = is_neutral && number_of(word) == (name == "-s" ? 1. : 0.);
-                rest = after;
-            }
-            if (name == "-clamp" && lower(word) == "on") material().is_clamped = true;
-            if (name == "-bm") material().normal_scale = number(name, word, kLargest);
-            if ((name == "-s" || name == "-o" || name == "-t") && !is_neutral)
-                warn("texture_transform", key + " " + name + " moves the texture; left out");
-            if (name == "-imfchan" || name == "-mm" || name == "-cc")
-                warn("texture_option", key + " " + name + " isn't applied");
+            const std::vector<std::string_view> words = arguments(*option, rest);
+            if (name == "-clamp" && lower(words[0]) == "on") material().is_clamped = true;
+            if (name == "-bm") material().normal_scale = signed_number(name, words[0]);
+            if (name == "-s" || name == "-o")
+                for (std::size_t i = 0; i < words.size(); ++i)
+                    (name == "-s" ? scale : offset)[static_cast<int>(i)] = signed_number(name, words[i]);
+            if (name == "-imfchan" || name == "-mm" || name == "-cc" || name == "-t")
+                warn("texture_option", map.said + " " + name + " isn't applied");
             line = rest;
         }
+        map.transform = downward(offset, scale);
         return line;
+    }
+
+    /// The words of an option; those that it may leave out are numbers.
+    std::vector<std::string_view> arguments(const MapOption& option, std::string_view& rest) const {
+        std::vector<std::string_view> words;
+        for (int i = 0; i < option.most; ++i) {
+            std::string_view after = rest;
+            const std::string_view word = take_word(after);
+            if (i >= option.least && !number_of(word)) break;
+            if (word.empty())
+                throw malformed(file_, line_, "found " + std::string(option.name) + " without its value");
+            words.push_back(word);
+            rest = after;
+        }
+        return words;
+    }
+
+    /// v goes up in MTL and down in pictures: u s + o is meant of 1 - v.
+    static UvTransform downward(const glm::dvec3& offset, const glm::dvec3& scale) {
+        return {{offset.x, 1 - scale.y - offset.y}, {scale.x, scale.y}, 0};
+    }
+
+    double signed_number(std::string_view key, std::string_view word) const {
+        const auto value = number_of(word);
+        if (!value || std::abs(*value) > kLargest)
+            throw malformed(file_, line_,
+                            "found " + parse::quoted(word) + " as " + parse::quoted(key) +
+                                "; allowed: a number from " + number_text(-kLargest) + " to " +
+                                number_text(kLargest));
+        return *value;
     }
 
     const std::string& file_;
     MaterialFile result_;
     std::set<std::string> names_;
     int line_ = 0;
+    bool states_d_ = false;
 };
 
 }  // namespace

@@ -49,8 +49,6 @@ std::string names_of(const MaterialFile& materials) {
 
 }  // namespace
 
-std::span<const std::string_view> material_extensions() { return kExtensions; }
-
 bool has_material_extension(std::string_view file) {
     return std::ranges::find(kExtensions, extension_of(file)) != kExtensions.end();
 }
@@ -62,50 +60,34 @@ MaterialFile parse_materials(std::span<const std::byte> bytes, const std::string
     MaterialFile materials = extension == ".mtl"   ? parse_mtl(text, file)
                              : extension == ".dae" ? parse_collada_materials(text, file)
                                                    : parse_json_materials(text, file);
+    if (materials.materials.empty()) throw malformed(file, 0, "holds no materials");
     materials.diagnostics.insert(materials.diagnostics.begin(), diagnostics.begin(), diagnostics.end());
     return materials;
 }
 
 const LegacyMaterial& find_material(const MaterialFile& materials, const std::string& name,
                                     const std::string& file) {
-    const auto& list = materials.materials;
-    if (list.empty()) throw malformed(file, 0, "holds no materials");
-    if (name.empty()) {
-        if (list.size() == 1) return list.front();
-        throw malformed(file, 0,
-                        "holds " + std::to_string(list.size()) +
-                            " materials; state which with material: " + names_of(materials));
-    }
     for (const auto key : {&LegacyMaterial::name, &LegacyMaterial::id})
-        for (const LegacyMaterial& material : list)
+        for (const LegacyMaterial& material : materials.materials)
             if (material.*key == name) return material;
     std::vector<std::string> names;
-    for (const LegacyMaterial& material : list) names.push_back(material.name);
+    for (const LegacyMaterial& material : materials.materials) names.push_back(material.name);
     throw malformed(file, 0,
-                    "found no material " + parse::quoted(name) + job::did_you_mean(name, names) +
-                        "; allowed: " + names_of(materials));
+                    "found no material " + parse::quoted(name) + "; allowed: " + names_of(materials) +
+                        job::did_you_mean(name, names));
 }
 
-std::string inner_path(const MaterialMap& map, const std::string& file) {
-    std::string path = map.path;
-    while (path.starts_with("./")) path.erase(0, 2);
-    const auto refuse = [&](const std::string& why) {
-        throw malformed(file, map.line,
-                        map.said + ": found " + parse::quoted(map.path) + ", which " + why +
-                            "; allowed: pictures in the folder of this file and below it (put it there, or "
-                            "state the map in the job)");
-    };
-    if (path.starts_with("data:")) refuse("is embedded");
-    if (path.find("://") != path.npos) refuse("is no file beside this one");
+std::optional<std::string> path_refusal(const std::string& path) {
+    if (path.starts_with("data:")) return "is embedded";
     if (path.empty() || std::ranges::any_of(path, [](char c) { return static_cast<unsigned char>(c) < 32; }))
-        refuse("is no path");
-    if (path.starts_with('/') || path.find(':') != path.npos) refuse("is absolute");
+        return "is no path";
+    if (path.starts_with('/') || path.find(':') != path.npos) return "is no file beside this one";
     for (std::size_t begin = 0; begin <= path.size();) {
         const std::size_t end = std::min(path.find('/', begin), path.size());
-        if (path.substr(begin, end - begin) == "..") refuse("leads out of the folder");
+        if (path.substr(begin, end - begin) == "..") return "leads out of the folder";
         begin = end + 1;
     }
-    return path;
+    return {};
 }
 
 std::string path_of_uri(std::string_view uri) {
@@ -132,22 +114,24 @@ MaterialFile parse_plain_materials(const Json& json, const std::string& file) {
     MaterialFile result;
     result.format = "plain JSON";
     const JsonFields root(json, file);
-    for (const JsonFields& fields : root.objects("materials")) {
-        if (result.materials.size() == kMostMaterials) root.refuse("materials", "at most 100000 materials");
+    const std::vector<JsonFields> list = root.objects("materials");
+    if (list.size() > kMostMaterials) root.refuse("materials", "at most 100000 materials");
+    for (const JsonFields& fields : list) {
         LegacyMaterial material;
         material.lobe = MaterialLobe::stated;
         material.name = fields.text({"name"}, "");
         if (material.name.empty()) fields.refuse("name", "a name, which each material has");
-        const std::array<std::pair<const char*, MaterialMap*>, 6> maps{{{"diffuse", &material.diffuse},
+        const std::array<std::pair<const char*, MaterialMap*>, 7> maps{{{"diffuse", &material.diffuse},
                                                                         {"specular", &material.specular},
                                                                         {"gloss", &material.gloss},
                                                                         {"normal", &material.normal},
                                                                         {"occlusion", &material.occlusion},
-                                                                        {"opacity", &material.opacity}}};
+                                                                        {"opacity", &material.opacity},
+                                                                        {"emissive", &material.emissive}}};
         material.fields = fields.json();
         material.fields.erase("name");
         for (const auto& [key, map] : maps) {
-            map->said = key;
+            map->said = fields.place() + "/" + key;
             map->path = fields.text({key}, "");
             std::ranges::replace(map->path, '\\', '/');
             material.fields.erase(key);

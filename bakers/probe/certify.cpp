@@ -1,6 +1,7 @@
 // What is known of a probe's error: texels chosen by hash against the exact sum, a level at a time.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -38,8 +39,8 @@ constexpr double kFarFieldShare = 0.1;
 /// What the exact sum may be off by its points: nothing smaller is told.
 constexpr double kErrorOfPoints = 3e-5;
 
-/// Bands that are checked whole: l = 0 to 4.
-constexpr int kLowBands = 5;
+/// Bands that are checked whole: l = 0 to 3.
+constexpr int kLowBands = pbr::kMomentBands;
 
 struct Tile {
     int face, left, top, width, height;
@@ -57,10 +58,10 @@ std::vector<Tile> all_tiles(int size, int smallest_tiled) {
     return tiles;
 }
 
-/// Evaluations of the exact sum that a level can afford, so that checking costs no more than the bake. An
-/// evaluation takes about 20 ns; the tree that they stand on about 40 ns a texel of the source. In these the
-/// harmonic solver takes about 90 ns a texel of the source, shared by the levels, and 200 ns a texel of the
-/// level; a filtered sample 10.
+/// Evaluations of the exact sum that a level can afford, so that beyond the fewest parts checking costs about
+/// half the bake. An evaluation takes about 20 ns; the tree that they stand on about 20 ns a texel of the
+/// source. Of what is paid for in these the harmonic solver gives 10 ns a texel of the source, shared by the
+/// levels, and 40 ns a texel of the level; a filtered sample takes 10.
 double affordable_evaluations(const ProbeParams& params, const Method& method, const Accuracy& accuracy,
                               const Environment& environment, int level) {
     const double size = size_of_level(params, level), texels = 6 * size * size;
@@ -69,7 +70,7 @@ double affordable_evaluations(const ProbeParams& params, const Method& method, c
         case Integrator::reference:
             return 1e9;
         case Integrator::harmonic:
-            return (source_texels * 50 + texels * 200) / 20;
+            return (source_texels * 10 + texels * 40) / 20;
         default:
             return (texels * samples_of_level(params, accuracy, level) * 10 - source_texels * 40) / 20;
     }
@@ -124,17 +125,35 @@ double mean_of_level(const Product& product, int level) {
     return mean > 0 ? mean : 1;
 }
 
+/// Solid angles of a face's texels, sr, by rows: those of an eighth of it, and its mirror images.
+std::vector<double> solid_angles_of_face(int n) {
+    std::vector<double> solid_angles(static_cast<std::size_t>(n) * n);
+    for (int y = 0; y < (n + 1) / 2; ++y)
+        for (int x = y; x < (n + 1) / 2; ++x) {
+            const double solid_angle = pbr::cubemap_texel_solid_angle(n, x, y);
+            for (const auto& [column, row] : {std::pair{x, y}, std::pair{y, x}})
+                for (const int j : {row, n - 1 - row})
+                    for (const int i : {column, n - 1 - column})
+                        solid_angles[static_cast<std::size_t>(j) * n + i] = solid_angle;
+        }
+    return solid_angles;
+}
+
 /// Radiance times solid angle over all texels and channels.
 double energy_of_level(const Product& product, int level) {
     const Image& image = product.images[0];
     const int n = image.levels[static_cast<std::size_t>(level)].width;
+    const std::vector<double> solid_angles = solid_angles_of_face(n);
     pbr::CompensatedSum flux;
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const double solid_angle = pbr::cubemap_texel_solid_angle(n, x, y);
-            for (int face = 0; face < 6; ++face)
-                for (int c = 0; c < 3; ++c)
-                    flux += solid_angle * static_cast<double>(image.texel(level, face, y, x)[c]);
+    for (int face = 0; face < 6; ++face)
+        for (int y = 0; y < n; ++y) {
+            const float* texel = image.texel(level, face, y, 0);
+            const double* solid_angle = &solid_angles[static_cast<std::size_t>(y) * n];
+            double row = 0;
+            for (int x = 0; x < n; ++x, texel += 3)
+                row += solid_angle[x] * (static_cast<double>(texel[0]) + static_cast<double>(texel[1]) +
+                                         static_cast<double>(texel[2]));
+            flux += row;
         }
     return flux.value() / product.scale;
 }
@@ -155,7 +174,9 @@ std::vector<double> brightness_of_tiles(const Image& image, int level, std::span
 }
 
 /// Root mean square over `values` numbers, over a mean, from a total of squares.
-/// The interval is widened by what the truth itself may be off.
+/// The interval is widened by what the truth itself may be off, and by what its far field is allowed, a tenth
+/// of the error asked for: what is left of a solved level beside a sun sits on single texels that a draw
+/// misses, and is smaller.
 Figure relative_rmse(const TotalEstimate& squared, double values, double mean, double of_truth, bool all,
                      std::string method, int level) {
     const auto root = [&](double total) { return std::sqrt(total / values) / mean; };
@@ -175,7 +196,7 @@ Figure relative_rmse(const TotalEstimate& squared, double values, double mean, d
 /// storage changed.
 Figure mirror_figure(const ProbeParams& params, const Environment& environment, const Product& product,
                      Context& context) {
-    constexpr int kRows = 24;
+    constexpr int kRows = 12;
     const int size = params.size, rows = 6 * size;
     std::vector<double> brightness;
     for (int row = 0; row < rows; ++row) {
@@ -207,41 +228,23 @@ Figure mirror_figure(const ProbeParams& params, const Environment& environment, 
                          0);
 }
 
-/// The largest error of a level: what was found, and how large it may be elsewhere if errors follow
-/// brightness as they did where they were measured, and are scattered about that no wider than exponentially,
-/// whose largest of N grows like log N.
-Figure largest_error(std::span<const Tile> tiles, std::span<const double> brightness,
-                     std::span<const std::size_t> chosen, std::span<const TileError> errors, double mean,
-                     bool all, const std::string& method, int level) {
-    const auto scale_of = [&](std::size_t tile) {
-        return mean + std::sqrt(brightness[tile] / (3.0 * tiles[tile].texels()));
-    };
-    double found = 0, share = 0, largest_scale = 0;
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-        found = std::max(found, errors[k].largest);
-        share = std::max(share, errors[k].largest / scale_of(chosen[k]));
-    }
-    Figure figure{"max_error_over_mean",
-                  found / mean,
-                  all ? Evidence::measured : Evidence::estimate,
-                  method,
-                  {},
-                  level};
-    if (all) return figure;
-    std::vector<bool> measured(tiles.size());
-    for (const std::size_t tile : chosen) measured[tile] = true;
-    for (std::size_t tile = 0; tile < tiles.size(); ++tile)
-        if (!measured[tile]) largest_scale = std::max(largest_scale, scale_of(tile));
-    const double growth = pbr::log_exact(2.0 + static_cast<double>(tiles.size())) /
-                          pbr::log_exact(2.0 + static_cast<double>(chosen.size()));
-    figure.interval = {found / mean, std::max(found, share * largest_scale * growth) / mean};
-    return figure;
+/// The largest error found in a level. Of a sample it is a lower bound: no other texel is known to err less.
+Figure largest_error(std::span<const TileError> errors, double mean, bool all, const std::string& method,
+                     int level) {
+    double found = 0;
+    for (const TileError& error : errors) found = std::max(found, error.largest);
+    return {"max_error_over_mean",
+            found / mean,
+            all ? Evidence::measured : Evidence::estimate,
+            all ? method : "a lower bound, the largest found: " + method,
+            {},
+            level};
 }
 
 /// A filtered level against the exact sum, on all tiles or as many as `affordable` evaluations pay for.
 std::vector<Figure> level_figures(const LevelCheck& check, double affordable, const ProbeParams& params,
                                   Context& context) {
-    constexpr double kFewest = 12, kMost = 96;
+    constexpr double kFewest = 12, kMost = 64;
     const int size = size_of_level(params, check.level);
     const std::vector<Tile> tiles =
         all_tiles(size, context.certify_fully() ? kSmallestTiledOfAll : kSmallestTiled);
@@ -284,9 +287,10 @@ std::vector<Figure> level_figures(const LevelCheck& check, double affordable, co
                   " chosen by hash, of " + std::to_string(tiles[0].texels()) + " texels each";
     const TotalEstimate total = estimate_total(sample, std::span(squared).first(sample.certain.size()),
                                                std::span(squared).subspan(sample.certain.size()));
-    return {relative_rmse(total, 18.0 * size * size, mean, std::max(of_truth.deviation, kErrorOfPoints), all,
-                          method, check.level),
-            largest_error(tiles, brightness, chosen, errors, mean, all, method, check.level),
+    return {relative_rmse(total, 18.0 * size * size, mean,
+                          std::max(of_truth.deviation, kErrorOfPoints) + check.tolerance, all, method,
+                          check.level),
+            largest_error(errors, mean, all, method, check.level),
             {"error_of_the_exact_sum",
              of_truth.deviation,
              Evidence::measured,
@@ -310,28 +314,36 @@ Figure low_band_figure(const Product& product, const std::vector<glm::dvec3>& so
     const std::vector<double> kernel = pbr::zonal_ggx(pbr::GgxZonalKernel(alpha), kLowBands);
     std::vector<glm::dvec3> expected = source_bands;
     pbr::sh_scale_bands<double, glm::dvec3>(kernel, expected);
+    constexpr std::size_t kCount = kLowBands * kLowBands;
+    std::array<std::array<double, kCount>, 3> foretold{}, rest{};
+    for (std::size_t i = 0; i < kCount; ++i)
+        for (int c = 0; c < 3; ++c) foretold[static_cast<std::size_t>(c)][i] = expected[i][c];
     const Image& image = product.images[0];
     const int size = image.levels[static_cast<std::size_t>(level)].width;
-    std::vector<glm::dvec3> rest(expected.size(), glm::dvec3(0));
-    std::vector<double> basis(expected.size());
+    std::array<double, kCount> basis{};
+    const std::vector<double> solid_angles = solid_angles_of_face(size);
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
-            const double solid_angle = pbr::cubemap_texel_solid_angle(size, x, y);
+            const double solid_angle = solid_angles[static_cast<std::size_t>(y) * size + x];
             for (int face = 0; face < 6; ++face) {
                 pbr::sh_evaluate<double>(kLowBands, pbr::cubemap_texel_direction({face, x, y}, size), basis);
                 const float* texel = image.texel(level, face, y, x);
-                glm::dvec3 value = glm::dvec3(texel[0], texel[1], texel[2]) / product.scale;
-                for (std::size_t i = 0; i < basis.size(); ++i) value -= basis[i] * expected[i];
-                for (std::size_t i = 0; i < basis.size(); ++i) rest[i] += solid_angle * basis[i] * value;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    std::array<double, 4> known{};  // sums side by side
+                    for (std::size_t i = 0; i < kCount; ++i) known[i % 4] += basis[i] * foretold[c][i];
+                    const double value = static_cast<double>(texel[c]) / product.scale -
+                                         ((known[0] + known[1]) + (known[2] + known[3]));
+                    for (std::size_t i = 0; i < kCount; ++i) rest[c][i] += solid_angle * value * basis[i];
+                }
             }
         }
     double largest = 0;
-    for (const glm::dvec3& coefficient : rest)
-        for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(coefficient[c]));
+    for (const std::array<double, kCount>& channel : rest)
+        for (const double coefficient : channel) largest = std::max(largest, std::abs(coefficient));
     return {"low_band_error",
             largest / (mean * std::sqrt(4 * std::numbers::pi)),
             Evidence::measured,
-            "largest difference of LD_lm from k_l E_lm, l to 4, over the mean's own coefficient; sums over "
+            "largest difference of LD_lm from k_l E_lm, l to 3, over the mean's own coefficient; sums over "
             "texels "
             "leave up to 1 / size^2 of what is in higher bands",
             {},
@@ -362,6 +374,7 @@ Certificate certify(const ProbeParams& params, const Inputs& inputs, const Produ
                 affordable_evaluations(params, method, context.accuracy(), environment, l), params, context);
             figures.push_back(low_band_figure(product, source_bands, source_mean, alpha, l));
         }
+
         if (!certificate.headline || figures[0].value > certificate.headline->value)
             certificate.headline = figures[0];
         certificate.figures.insert(certificate.figures.end(), figures.begin(), figures.end());

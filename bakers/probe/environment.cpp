@@ -95,6 +95,7 @@ void Environment::resample_row(int size, int face, int y, std::span<float> rgb_o
 
 void Environment::resample(int size, const pbr::ForEach& each, std::span<float> rgb_out) const {
     if (size <= equivalent_size()) return resample_area(size, each, rgb_out);
+    if (!is_cube()) return pbr::resample_bilinear(equirect_, size, each, rgb_out);
     each(6 * size, [&](int row) { resample_row(size, row / size, row % size, row_of(rgb_out, size, row)); });
 }
 

@@ -39,7 +39,7 @@ PixelType pixel_of(const Product& product, const job::Bake& bake) {
 Product baked(const job::Bake& bake, const Inputs& inputs, Context& context) {
     Product product = bake.baker->run(bake.json, inputs, context);
     // A baker's own choice gives way to a pixel type that the job states, and to what its format holds.
-    const Format& format = *find_format(bake.format);
+    const Format& format = picture_format(bake.format);
     if (product.pixel &&
         (bake.pixel_stated || std::ranges::find(format.pixels, *product.pixel) == format.pixels.end()))
         product.pixel.reset();
@@ -78,9 +78,11 @@ class BakeRun {
 
   private:
     void run_stages() {
+        if (bake_.error) throw *bake_.error;
         timed(Stage::decode, [&] { decode(); });
         timed(Stage::bake, [&] { bake(); });
         if (bake_.certify != job::Certify::none) timed(Stage::certify, [&] { certify(); });
+        release_sources();
         timed(Stage::encode, [&] { encode(); });
         timed(Stage::write, [&] { write(); });
         check_accuracy();
@@ -188,15 +190,22 @@ class BakeRun {
         report_.certify_evaluations = context->counts();
     }
 
+    /// Nobody looks at sources' texels any more; the record still wants the rest.
+    void release_sources() {
+        for (auto& [field, source] : inputs_) source.image.levels.clear();
+    }
+
     void encode() {
         const io::FileInfo info{pixel(), metadata(job_, bake_, product_), bake_.name};
-        for (const Image& image : product_.images) {
-            const fs::path file = files_.empty() ? fs::path(bake_.file) : named_file(image.name);
-            std::vector<std::byte> bytes = io::encode(bake_.format, image, info);
+        for (Image& image : product_.images) {
+            const bool is_first = files_.empty() && !find_format(bake_.format)->is_document();
+            const fs::path file = is_first ? fs::path(bake_.file) : named_file(image.name);
+            std::vector<std::byte> bytes = io::encode(picture_format(bake_.format).name, image, info);
             outputs_.push_back({file, io::hash_bytes(bytes.data(), bytes.size()), bytes.size()});
             files_.push_back(std::move(bytes));
+            for (Level& level : image.levels) level.texels = {};
         }
-        // A product without images is the document of its format; the main file comes first.
+        // Of documents the main file comes first.
         std::ranges::stable_partition(product_.documents,
                                       [&](const Document& document) { return is_main(document.suffix); });
         for (const Document& document : product_.documents) add_document(document);
@@ -273,6 +282,7 @@ BakeReport plan_bake(const job::Job& job, const job::Bake& bake) {
     BakeReport report;
     report.job = &job;
     report.bake = &bake;
+    report.warnings = bake.warnings;
     for (const job::Source& source : bake.sources)
         if (!source.file.empty()) report.reads.push_back(source.file);
     report.writes.push_back((job.output / bake.file).lexically_normal());

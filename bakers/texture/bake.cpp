@@ -2,13 +2,13 @@
 #include <cmath>
 
 #include "bakers/formats.hpp"
+#include "bakers/parse/materials.hpp"
 #include "bakers/texture/chain.hpp"
 #include "bakers/texture/convert.hpp"
 #include "bakers/texture/difference.hpp"
 #include "bakers/texture/gltf_document.hpp"
 #include "bakers/texture/material.hpp"
 #include "bakers/texture/pack.hpp"
-#include "bakers/texture/source_material.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbrbake::texture {
@@ -16,25 +16,13 @@ namespace {
 
 using Materials = std::vector<pbr::MetallicMaterial<float>>;
 
-Materials materials_of(const TextureParams& params, const Layout& layout, const MapLevel& level,
-                       const std::vector<Colour>& tolerance, Context& context) {
-    Materials materials(level.texels());
-    context.parallel_for(level.height, 16, [&](std::int64_t begin, std::int64_t end) {
-        const std::size_t last = static_cast<std::size_t>(end) * level.width;
-        for (std::size_t i = static_cast<std::size_t>(begin) * level.width; i < last; ++i)
-            materials[i] =
-                material_of(params, layout, level, i, tolerance.empty() ? Colour(1e-6f) : tolerance[i]);
-    });
-    return materials;
-}
+constexpr std::string_view kGltfEnd = ".gltf";
 
-/// The largest dielectric f0 that matters, at least the usual one: what a code of 1 stands for. Texels that
-/// are nearly all metal don't show theirs.
-float specular_unit(const TextureParams& params, const Materials& materials) {
-    auto largest = static_cast<float>(params.dielectric_f0);
-    for (const auto& material : materials)
-        if (material.metallic < .99f) largest = std::max(largest, pbr::max_channel(material.dielectric_f0));
-    return largest;
+/// Whether a set is more than factors, its only texel.
+bool has_pictures(const TextureParams& params) {
+    const std::array pictures{&params.diffuse,   &params.specular, &params.gloss,   &params.normal,
+                              &params.occlusion, &params.opacity,  &params.emissive};
+    return std::ranges::any_of(pictures, [](const std::string* path) { return !path->empty(); });
 }
 
 Image named_image(const PackedImage& packed) {
@@ -46,32 +34,20 @@ Image named_image(const PackedImage& packed) {
     return image;
 }
 
-Image confidence_image(const Converted& set) {
-    Image image{
-        "confidence", {"R"}, 1, {{set.level.width, set.level.height, set.confidence}}, Transfer::linear};
-    return image;
+Image grey_image(std::string_view name, int width, int height) {
+    const std::size_t texels = static_cast<std::size_t>(width) * height;
+    return {std::string(name), {"R"}, 1, {{width, height, std::vector<float>(texels)}}, Transfer::linear};
 }
 
 /// Black to white over a colour difference of 0 to 10, before codes.
-Image difference_image(const Sources& sources, const Layout& layout, const Converted& set,
-                       const Materials& materials, Context& context) {
+float difference_of(const Layout& layout, const MapLevel& level, std::size_t i,
+                    const pbr::MetallicMaterial<float>& material, pbr::Scattering scattering) {
     constexpr float kFullScale = 10;
-    const MapLevel& level = set.level;
-    Level heat{level.width, level.height, std::vector<float>(level.texels())};
-    const auto scattering =
-        sources.params().multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
-    context.parallel_for(level.height, 16, [&](std::int64_t begin, std::int64_t end) {
-        const std::size_t last = static_cast<std::size_t>(end) * level.width;
-        for (std::size_t i = static_cast<std::size_t>(begin) * level.width; i < last; ++i) {
-            const float p = level.perceptual_roughness[i];
-            const Colour before = pbr_albedo({level.diffuse[i], level.f0[i]}, p, scattering).total();
-            const Colour after =
-                pbr_albedo(pbr::reflected_from_metallic(materials[i], layout.coupling), p, scattering)
-                    .total();
-            heat.texels[i] = std::min(1.f, static_cast<float>(delta_e(before, after)) / kFullScale);
-        }
-    });
-    return {"difference", {"R"}, 1, {std::move(heat)}, Transfer::linear};
+    const float p = level.perceptual_roughness[i];
+    const Colour before = pbr_albedo({level.diffuse[i], level.f0[i]}, p, scattering).total();
+    const Colour after =
+        pbr_albedo(pbr::reflected_from_metallic(material, layout.coupling), p, scattering).total();
+    return std::min(1.f, static_cast<float>(delta_e(before, after)) / kFullScale);
 }
 
 /// Adds what triangular noise of one code's width takes from banding, where codes are 8 bits.
@@ -92,8 +68,9 @@ void dither(const TextureParams& params, std::vector<Image>& images) {
             }
 }
 
-void warn(const Sources& sources, const Findings& found, Product& product) {
+void warn(const Sources& sources, const Survey& survey, const Findings& found, Product& product) {
     for (const std::string& warning : sources.warnings()) product.warnings.push_back(warning);
+    for (const std::string& warning : survey.doubts.warnings) product.warnings.push_back(warning);
     const auto percent = [](double share) {
         return std::to_string(static_cast<int>(share * 100 + .5)) + " %";
     };
@@ -106,21 +83,181 @@ void warn(const Sources& sources, const Findings& found, Product& product) {
     if (found.low_confidence > .5)
         product.warnings.push_back("the data don't tell metal from dielectric in " +
                                    percent(found.low_confidence) + " of texels; state surface, or calibrate");
-    if (found.calibration == "statistics")
+    if (survey.calibration.kind == Calibration::Kind::statistics)
         product.warnings.push_back(
             "specular was scaled so that its median dielectric reflects the usual f0; state "
             "surface or calibrate none if it is f0 already");
 }
 
-void add_documents(const TextureParams& params, const Layout& layout, float unit, const Inputs& inputs,
-                   const std::string& first_file, Product& product) {
-    const Json json = material_json(params, layout, unit);
-    product.documents.push_back({"material.json", json, ""});
-    if (params.packing != Packing::gltf || !first_file.ends_with(".png")) return;
-    const auto material = source_material(params, inputs);
-    product.documents.push_back(
-        {"material.gltf", gltf_document(json["gltf"], first_file, material ? &*material : nullptr), ""});
-}
+/// A set on its way to images. The largest level is never in memory but as packed: it is converted by strips,
+/// each of which leaves its rows of the next level.
+class SetBake {
+  public:
+    SetBake(const Sources& sources, Context& context)
+        : sources_(sources),
+          params_(sources.params()),
+          context_(context),
+          layout_(layout_of(sources)),
+          survey_(survey(sources, context)),
+          findings_(static_cast<std::size_t>(sources.height())),
+          largest_f0_(static_cast<std::size_t>(sources.height())) {
+        for (const PackedImage& image : layout_.images) {
+            images_.push_back(named_image(image));
+            images_.back().levels.push_back(empty_level(sources.width(), sources.height(), image));
+        }
+        for (const ExtraMap map : params_.maps)
+            extras_.push_back(grey_image(enum_name(map), sources.width(), sources.height()));
+    }
+
+    Product run() {
+        convert_largest();
+        const float unit = layout_.has_residual ? specular_unit() : 1;
+        if (layout_.has_residual) divide_specular(unit);
+        while (static_cast<int>(images_.front().levels.size()) != params_.levels && !is_smallest()) {
+            context_.check_cancelled();
+            add_level(unit);
+            if (std::max(next_.width, next_.height) > 1) next_ = next_level(next_, context_);
+        }
+        Product product;
+        product.images = std::move(images_);
+        for (Image& image : extras_) product.images.push_back(std::move(image));
+        Findings total;
+        for (const Findings& row : findings_) total += row;
+        const double texels = static_cast<double>(sources_.width()) * sources_.height();
+        for (double* sum : {&total.f0_clamped, &total.over_unity, &total.low_confidence, &total.metallic,
+                            &total.confidence})
+            *sum /= texels;
+        product.properties["set"] = properties_json(params_, layout_, survey_, total, sources_, unit);
+        add_documents(unit, product);
+        warn(sources_, survey_, total, product);
+        return product;
+    }
+
+  private:
+    void add_documents(float unit, Product& product) const {
+        const bool is_gltf = context_.product_file().ends_with(kGltfEnd);
+        std::optional<Unpacked> factors;
+        if (is_gltf && !has_pictures(params_)) {
+            factors = unpack(params_, layout_, product.images, 0, 0, unit, 1);
+            product.properties["set"]["factors"] = factors_json(*factors);
+            product.images.clear();
+        }
+        Json material = material_json(params_, layout_, unit, factors);
+        if (is_gltf)
+            product.documents.push_back(
+                {"gltf", gltf_document(params_, material["gltf"], context_.product_file()), ""});
+        product.documents.push_back({"material.json", std::move(material), ""});
+    }
+
+    static Level empty_level(int width, int height, const PackedImage& image) {
+        const std::size_t texels = static_cast<std::size_t>(width) * height;
+        return {width, height, std::vector<float>(texels * image.channels.size())};
+    }
+
+    bool is_smallest() const {
+        const Level& level = images_.front().levels.back();
+        return std::max(level.width, level.height) == 1;
+    }
+
+    /// Strips of about 2^17 texels; each strip's rows are those under some rows of the next level, so that it
+    /// can fill these.
+    void convert_largest() {
+        const int width = sources_.width(), height = sources_.height();
+        const bool has_next = params_.levels != 1 && std::max(width, height) > 1;
+        if (has_next) {
+            MapLevel maps;
+            maps.width = width;
+            if (sources_.has_normal()) maps.normal.resize(1);
+            if (sources_.has_occlusion()) maps.occlusion.resize(1);
+            if (sources_.has_opacity()) maps.opacity.resize(1);
+            if (sources_.has_emissive()) maps.emissive.resize(1);
+            next_ = level_below(maps, height);
+        } else {
+            next_.height = std::max(1, height / 2);
+        }
+        const int step = std::clamp((1 << 16) / width, 1, 32), most_rows = 2 * step + 2;
+        const std::int64_t strips = (next_.height + step - 1) / step;
+        const std::int64_t grain = std::max<std::int64_t>(1, strips / (4 * context_.threads()));
+        context_.parallel_for(strips, grain, [&](std::int64_t begin, std::int64_t end) {
+            Converter converter(sources_, survey_, most_rows);
+            Materials materials(static_cast<std::size_t>(width));
+            for (std::int64_t strip = begin; strip < end; ++strip) {
+                const auto first = static_cast<int>(strip) * step,
+                           last = std::min(first + step, next_.height);
+                const int top = first_row_under(first, height, next_),
+                          bottom = first_row_under(last, height, next_),
+                          reach = last_row_under(last - 1, height, next_) + 1;
+                const Rows& rows = converter.convert(top, std::max(bottom, reach), findings_);
+                for (int y = top; y < bottom; ++y) pack_row(rows, y, materials);
+                for (int y = first; has_next && y < last; ++y) fill_row(rows.level, top, height, y, next_);
+            }
+        });
+        context_.count("texels", static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height));
+    }
+
+    void pack_row(const Rows& rows, int y, Materials& materials) {
+        const MapLevel& level = rows.level;
+        const auto width = static_cast<std::size_t>(level.width);
+        const std::size_t begin = static_cast<std::size_t>(y - rows.first) * width,
+                          to = static_cast<std::size_t>(y) * width;
+        float& largest = largest_f0_[static_cast<std::size_t>(y)];
+        for (std::size_t x = 0; x < width; ++x) {
+            materials[x] = material_of(params_, layout_, level, begin + x, rows.tolerance[begin + x]);
+            if (materials[x].metallic < .99f)
+                largest = std::max(largest, pbr::max_channel(materials[x].dielectric_f0));
+        }
+        for (std::size_t i = 0; i < layout_.images.size(); ++i)
+            pack(layout_.images[i], level, begin, begin + width, materials.data(), 1, to,
+                 images_[i].levels.front().texels);
+        const auto scattering = params_.multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
+        for (std::size_t i = 0; i < extras_.size(); ++i)
+            for (std::size_t x = 0; x < width; ++x)
+                extras_[i].levels.front().texels[to + x] =
+                    params_.maps[i] == ExtraMap::confidence
+                        ? rows.confidence[begin + x]
+                        : difference_of(layout_, level, begin + x, materials[x], scattering);
+    }
+
+    /// The largest dielectric f0 that matters, at least the usual one: what a code of 1 stands for. Texels
+    /// that are nearly all metal don't show theirs.
+    float specular_unit() const {
+        return std::max(static_cast<float>(params_.dielectric_f0), *std::ranges::max_element(largest_f0_));
+    }
+
+    /// The residual was packed before its unit was known.
+    void divide_specular(float unit) {
+        for (std::size_t i = 0; i < layout_.images.size(); ++i)
+            if (layout_.images[i].channels.front() == Held::dielectric_r)
+                for (float& value : images_[i].levels.front().texels) value = std::min(1.f, value / unit);
+    }
+
+    void add_level(float unit) {
+        for (std::size_t i = 0; i < layout_.images.size(); ++i)
+            images_[i].levels.push_back(empty_level(next_.width, next_.height, layout_.images[i]));
+        const auto width = static_cast<std::size_t>(next_.width);
+        context_.parallel_for(next_.height, 16, [&](std::int64_t begin, std::int64_t end) {
+            Materials materials(width);
+            for (std::int64_t y = begin; y < end; ++y) {
+                const std::size_t first = static_cast<std::size_t>(y) * width;
+                for (std::size_t x = 0; x < width; ++x)
+                    materials[x] = material_of(params_, layout_, next_, first + x, Colour(1e-6f));
+                for (std::size_t i = 0; i < layout_.images.size(); ++i)
+                    pack(layout_.images[i], next_, first, first + width, materials.data(), unit, first,
+                         images_[i].levels.back().texels);
+            }
+        });
+    }
+
+    const Sources& sources_;
+    const TextureParams& params_;
+    Context& context_;
+    Layout layout_;
+    Survey survey_;
+    std::vector<Findings> findings_;  ///< sums of each row
+    std::vector<float> largest_f0_;   ///< of each row's dielectrics
+    std::vector<Image> images_, extras_;
+    MapLevel next_;
+};
 
 }  // namespace
 
@@ -129,15 +266,17 @@ std::vector<Mistake> check(const TextureParams& params, const std::string& forma
     if (params.source.empty() && params.diffuse.empty() && params.specular.empty())
         mistakes.push_back(
             {"/diffuse", "missing, and specular too; a set has one of them at least, or a source"});
-    if (!params.material.empty() && !parse::has_material_extension(params.source))
-        mistakes.push_back({"/material", "found one, but source is no file of materials"});
+    if (params.source.empty() && !params.material.empty())
+        mistakes.push_back({"/material", "needs the source that it is in"});
+    if (format == "gltf" && params.packing != Packing::gltf)
+        mistakes.push_back({"/packing", "found \"" + std::string(enum_name(params.packing)) +
+                                            "\"; allowed with format gltf: \"gltf\""});
+    if (params.packing != Packing::gltf && !params.emissive.empty())
+        mistakes.push_back({"/emissive", "is written with packing gltf alone; allowed: \"\""});
     const Format* container = find_format(format);
     if (container && !container->is_chain && params.levels != 1)
         mistakes.push_back({"/levels", "found " + std::to_string(params.levels) + ", but " + format +
                                            " holds one level; allowed: 1, or format exr, ktx2, dds"});
-    if (container && container->max_channels < 4)
-        mistakes.push_back(
-            {"/format", "found \"" + format + "\"; allowed for texture sets: exr, ktx2, dds, png"});
     if (params.gloss_is == GlossIs::automatic && !params.gloss.empty() &&
         params.model != Model::specular_gloss)
         mistakes.push_back(
@@ -151,66 +290,37 @@ std::vector<Read> reads(const TextureParams& params) {
     const auto add = [&](const char* field, const std::string& path, const std::string& space) {
         if (!path.empty()) list.push_back({field, path, space, Read::As::picture, true});
     };
-    if (parse::has_material_extension(params.source))
-        list.push_back({"source", params.source, "", Read::As::text});
     add("diffuse", params.diffuse, params.colour_space);
     add("specular", params.specular, params.colour_space);
     add("gloss", params.gloss, "raw");
     add("normal", params.normal, "raw");
     add("occlusion", params.occlusion, "raw");
     add("opacity", params.opacity, "raw");
+    add("emissive", params.emissive, params.colour_space);
+    if (parse::has_material_extension(params.source))
+        list.push_back({"source", params.source, "auto", Read::As::text, false});
     return list;
 }
 
-std::vector<std::string> images(const TextureParams& params) {
+std::vector<std::string> images(const TextureParams& params, const std::string& format) {
     std::vector<std::string> names;
-    for (const PackedImage& image : layout_of(params, false).images) names.push_back(image.name);
-    names.erase(names.begin());
+    if (format == "gltf" && !has_pictures(params)) return names;
+    names = image_names(params);
+    if (format != "gltf") names.erase(names.begin());
     for (const ExtraMap map : params.maps) names.emplace_back(enum_name(map));
     return names;
 }
 
-/// glTF takes PNG (and JPEG) pictures.
-std::vector<std::string> documents(const TextureParams& params, const std::string& format) {
-    if (params.packing == Packing::gltf && format == "png") return {"material.json", "material.gltf"};
+std::vector<std::string> documents(const std::string& format) {
+    if (format == "gltf") return {"gltf", "material.json"};
     return {"material.json"};
 }
 
-Product bake(const TextureParams& given, const Inputs& inputs, Context& context) {
-    const TextureParams params = settled(given, inputs);
+Product bake(const TextureParams& params, const Inputs& inputs, Context& context) {
     const Sources sources(params, inputs);
-    Converted set = convert(sources, context);
-    const Layout layout = layout_of(params, sources.has_opacity());
-    Materials materials = materials_of(params, layout, set.level, set.tolerance, context);
-    const float unit = layout.has_residual ? specular_unit(params, materials) : 1;
-
-    Product product;
-    for (const PackedImage& image : layout.images) product.images.push_back(named_image(image));
-    const auto add_levels = [&](const MapLevel& level, const Materials& of) {
-        std::vector<Level> packed = pack(params, layout, level, of, unit, context);
-        for (std::size_t i = 0; i < packed.size(); ++i)
-            product.images[i].levels.push_back(std::move(packed[i]));
-    };
-    add_levels(set.level, materials);
-    std::vector<Image> extras;
-    for (const ExtraMap map : params.maps)
-        extras.push_back(map == ExtraMap::confidence
-                             ? confidence_image(set)
-                             : difference_image(sources, layout, set, materials, context));
-    MapLevel level = std::move(set.level);
-    while (static_cast<int>(product.images.front().levels.size()) != params.levels &&
-           std::max(level.width, level.height) > 1) {
-        context.check_cancelled();
-        level = next_level(level, context);
-        add_levels(level, materials_of(params, layout, level, {}, context));
-    }
-    for (Image& image : extras) product.images.push_back(std::move(image));
+    Product product = SetBake(sources, context).run();
     if (params.dither) dither(params, product.images);
     product.pixel = PixelType::unorm8;
-    product.properties["set"] = properties_json(params, layout, set.findings, sources, unit);
-    add_documents(params, layout, unit, inputs, context.product_file(), product);
-    product.warnings = source_warnings(params, inputs);
-    warn(sources, set.findings, product);
     return product;
 }
 

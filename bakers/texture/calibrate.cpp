@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <mutex>
+#include <numeric>
 
 namespace pbrbake::texture {
 namespace {
@@ -57,47 +59,59 @@ constexpr std::array<SurfaceWord, 44> kWords{{
     {"gold", true, {1.f, .766f, .336f}},
 }};
 
-/// Sums in double: the order of texels is fixed, so is the result.
-double mean_of(const std::vector<Colour>& colours) {
-    double sum = 0;
-    for (const Colour& colour : colours) sum += static_cast<double>(pbr::mean_channel(colour));
-    return colours.empty() ? 0 : sum / static_cast<double>(colours.size());
-}
+/// Sums over a row; rows are added in order, so that results don't depend on threads.
+struct RowSums {
+    double diffuse = 0, f0 = 0;
+};
 
-void scale_f0(MapLevel& level, double scale) {
-    for (Colour& f0 : level.f0) f0 = glm::min(f0 * static_cast<float>(scale), Colour(1));
-}
+/// In steps of 1/1024.
+using Histogram = std::array<std::size_t, 1025>;
 
-/// A metal has no diffuse colour: the picture's detail is in both maps, and its mean is the metal's.
-void make_metal(MapLevel& level, const Colour& reference) {
-    double sum = 0;
-    for (std::size_t i = 0; i < level.texels(); ++i)
-        sum += static_cast<double>(pbr::mean_channel(level.diffuse[i]) + pbr::mean_channel(level.f0[i]));
-    const double mean = sum / static_cast<double>(level.texels());
-    for (std::size_t i = 0; i < level.texels(); ++i) {
-        const float relative =
-            mean > 0 ? static_cast<float>(
-                           (pbr::mean_channel(level.diffuse[i]) + pbr::mean_channel(level.f0[i])) / mean)
-                     : 1.f;
-        level.f0[i] = glm::min(reference * relative, Colour(1));
-        level.diffuse[i] = Colour(0);
-    }
-}
+struct Statistics {
+    double diffuse = 0, f0 = 0;  ///< means
+    /// The median f0 of texels that have a diffuse colour, which metals haven't: in a library's maps those
+    /// are dielectrics. 0 where there are too few of them.
+    double dielectric_median = 0;
+};
 
-/// The median f0 of texels that have a diffuse colour, which metals haven't: in a library's maps those are
-/// dielectrics. In steps of 1/1024.
-double dielectric_median(const MapLevel& level, float least_diffuse) {
-    std::array<std::size_t, 1025> histogram{};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < level.texels(); ++i) {
-        if (pbr::mean_channel(level.diffuse[i]) < least_diffuse) continue;
-        ++histogram[static_cast<std::size_t>(std::clamp(pbr::mean_channel(level.f0[i]), 0.f, 1.f) * 1024)];
-        ++count;
-    }
-    if (count < level.texels() / 20 + 1) return 0;
+double median_of(const Histogram& histogram, std::size_t least_count) {
+    const std::size_t count = std::accumulate(histogram.begin(), histogram.end(), std::size_t{0});
+    if (count < least_count) return 0;
     std::size_t seen = 0, step = 0;
     while (seen + histogram[step] < (count + 1) / 2) seen += histogram[step++];
     return (static_cast<double>(step) + .5) / 1024;
+}
+
+Statistics statistics_of(const Sources& sources, Context& context) {
+    const auto least_diffuse = static_cast<float>(sources.params().dielectric_f0);
+    std::vector<RowSums> rows(static_cast<std::size_t>(sources.height()));
+    Histogram histogram{};
+    std::mutex mutex;
+    context.parallel_for(sources.height(), 64, [&](std::int64_t begin, std::int64_t end) {
+        Histogram own{};
+        std::vector<LegacyTexel> texels(static_cast<std::size_t>(sources.width()));
+        for (auto y = static_cast<int>(begin); y < end; ++y) {
+            sources.row(y, texels.data());
+            for (const LegacyTexel& texel : texels) {
+                const float diffuse = pbr::mean_channel(texel.reflected.diffuse),
+                            f0 = pbr::mean_channel(texel.reflected.f0);
+                rows[static_cast<std::size_t>(y)].diffuse += static_cast<double>(diffuse);
+                rows[static_cast<std::size_t>(y)].f0 += static_cast<double>(f0);
+                if (diffuse >= least_diffuse)
+                    ++own[static_cast<std::size_t>(std::clamp(f0, 0.f, 1.f) * 1024)];
+            }
+        }
+        const std::lock_guard lock(mutex);
+        for (std::size_t i = 0; i < own.size(); ++i) histogram[i] += own[i];
+    });
+    Statistics statistics;
+    const auto texels = static_cast<double>(sources.width()) * sources.height();
+    for (const RowSums& row : rows) {
+        statistics.diffuse += row.diffuse / texels;
+        statistics.f0 += row.f0 / texels;
+    }
+    statistics.dielectric_median = median_of(histogram, static_cast<std::size_t>(texels) / 20 + 1);
+    return statistics;
 }
 
 }  // namespace
@@ -120,7 +134,22 @@ const SurfaceWord* surface_word(const std::string& path) {
     return nullptr;
 }
 
-void calibrate(const TextureParams& params, MapLevel& level, Findings& findings) {
+pbr::Reflected<float> Calibration::operator()(const pbr::Reflected<float>& texel) const {
+    if (kind == Kind::none) return texel;
+    if (kind != Kind::metal)
+        return {texel.diffuse, glm::min(texel.f0 * static_cast<float>(scale), Colour(1))};
+    const float brightness_here = pbr::mean_channel(texel.diffuse) + pbr::mean_channel(texel.f0);
+    const float relative = brightness > 0 ? brightness_here / static_cast<float>(brightness) : 1.f;
+    return {Colour(0), glm::min(metal * relative, Colour(1))};
+}
+
+std::string_view kind_name(Calibration::Kind kind) {
+    constexpr std::array<std::string_view, 4> kNames{"none", "metal", "dielectric", "statistics"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+Calibration find_calibration(const Sources& sources, Context& context) {
+    const TextureParams& params = sources.params();
     const SurfaceWord* word = surface_word(params.diffuse.empty() ? params.specular : params.diffuse);
     const bool is_legacy = params.model != Model::specular_gloss;
     const bool wanted =
@@ -130,47 +159,69 @@ void calibrate(const TextureParams& params, MapLevel& level, Findings& findings)
     bool is_metal = params.surface == SurfaceIs::metal;
     const bool is_told = is_metal || params.surface == SurfaceIs::dielectric || word != nullptr;
     if (params.surface == SurfaceIs::automatic && word) is_metal = word->is_metal;
-    findings.surface = !is_told ? "any" : is_metal ? "metal" : "dielectric";
-    if (word) findings.surface_word = word->word;
-    if (!wanted) return;
+    Calibration result;
+    result.surface = !is_told ? "any" : is_metal ? "metal" : "dielectric";
+    if (word) result.word = word->word;
+    if (!wanted) return result;
 
-    const double before = mean_of(level.f0);
+    const Statistics statistics = statistics_of(sources, context);
     if (is_told && is_metal) {
         constexpr Colour kIron(.56f, .57f, .58f);
-        make_metal(level, word && word->is_metal ? word->f0 : kIron);
-        findings.calibration = "metal";
+        result.kind = Calibration::Kind::metal;
+        result.metal = word && word->is_metal ? word->f0 : kIron;
+        result.brightness = statistics.diffuse + statistics.f0;
+        if (statistics.f0 > 0)
+            result.scale = static_cast<double>(pbr::mean_channel(result.metal)) / statistics.f0;
     } else if (is_told) {
         const double reference =
             word && !word->is_metal ? static_cast<double>(word->f0.x) : params.dielectric_f0;
-        if (before > 0) scale_f0(level, reference / before);
-        findings.calibration = "dielectric";
-    } else {
-        const double median = dielectric_median(level, static_cast<float>(params.dielectric_f0));
-        if (median > params.dielectric_f0 + 2 * params.f0_tolerance) {
-            scale_f0(level, params.dielectric_f0 / median);
-            findings.calibration = "statistics";
-        }
+        result.kind = Calibration::Kind::dielectric;
+        if (statistics.f0 > 0) result.scale = reference / statistics.f0;
+    } else if (statistics.dielectric_median > params.dielectric_f0 + 2 * params.f0_tolerance) {
+        result.kind = Calibration::Kind::statistics;
+        result.scale = params.dielectric_f0 / statistics.dielectric_median;
     }
-    findings.specular_scale = before > 0 ? mean_of(level.f0) / before : 1;
+    return result;
 }
 
-double green_correlation(const MapLevel& level) {
-    double product = 0, xx = 0, yy = 0;
-    const auto slope = [&](int x, int y) {
-        const Colour& n = level.normal[static_cast<std::size_t>(y) * level.width + x];
-        const double z = std::max(static_cast<double>(n.z), .1);
-        return std::pair(-static_cast<double>(n.x) / z, -static_cast<double>(n.y) / z);
+double green_correlation(const Sources& sources, Context& context) {
+    struct Sums {
+        double product = 0, xx = 0, yy = 0;
     };
-    for (int y = 0; y + 1 < level.height; ++y)
-        for (int x = 0; x + 1 < level.width; ++x) {
-            // Rows go down, so d/dy of the upward axis is minus the difference of rows.
-            const double a = slope(x, y).first - slope(x, y + 1).first;
-            const double b = slope(x + 1, y).second - slope(x, y).second;
-            product += a * b;
-            xx += a * a;
-            yy += b * b;
+    std::vector<Sums> rows(static_cast<std::size_t>(sources.height()));
+    struct Slope {
+        float x, y;
+    };
+    const auto slopes_of = [&](int y, std::vector<Slope>& slopes) {
+        for (int x = 0; x < sources.width(); ++x) {
+            const Colour n = sources.normal(x, y);
+            const float z = std::max(n.z, .1f);
+            slopes[static_cast<std::size_t>(x)] = {-n.x / z, -n.y / z};
         }
-    return xx > 0 && yy > 0 ? product / std::sqrt(xx * yy) : 0;
+    };
+    context.parallel_for(sources.height() - 1, 64, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<Slope> upper(static_cast<std::size_t>(sources.width())), lower = upper;
+        slopes_of(static_cast<int>(begin), upper);
+        for (std::int64_t y = begin; y < end; ++y) {
+            slopes_of(static_cast<int>(y + 1), lower);
+            Sums& sums = rows[static_cast<std::size_t>(y)];
+            for (std::size_t x = 0; x + 1 < upper.size(); ++x) {
+                // Rows go down, so d/dy of the upward axis is minus the difference of rows.
+                const double a = upper[x].x - lower[x].x, b = upper[x + 1].y - upper[x].y;
+                sums.product += a * b;
+                sums.xx += a * a;
+                sums.yy += b * b;
+            }
+            std::swap(upper, lower);
+        }
+    });
+    Sums all;
+    for (const Sums& row : rows) {
+        all.product += row.product;
+        all.xx += row.xx;
+        all.yy += row.yy;
+    }
+    return all.xx > 0 && all.yy > 0 ? all.product / std::sqrt(all.xx * all.yy) : 0;
 }
 
 }  // namespace pbrbake::texture

@@ -31,7 +31,7 @@ Cover cover(int index, int small, int large) {
 }
 
 struct Sums {
-    Colour diffuse{0}, f0{0};
+    Colour diffuse{0}, f0{0}, emissive{0};
     float metallic = 0, occlusion = 0, opacity = 0;
     pbr::SlopeMoments<float> slopes;
 
@@ -41,6 +41,7 @@ struct Sums {
         metallic += share * level.metallic[i];
         if (!level.occlusion.empty()) occlusion += share * level.occlusion[i];
         if (!level.opacity.empty()) opacity += share * level.opacity[i];
+        if (!level.emissive.empty()) emissive += share * level.emissive[i];
         slopes.add(level.normal.empty() ? Colour(0, 0, 1) : level.normal[i],
                    pbr::alpha_from_perceptual_roughness(level.perceptual_roughness[i]), share);
     }
@@ -53,15 +54,16 @@ struct Sums {
         if (!level.normal.empty()) level.normal[i] = slopes.normal();
         if (!level.occlusion.empty()) level.occlusion[i] = occlusion;
         if (!level.opacity.empty()) level.opacity[i] = opacity;
+        if (!level.emissive.empty()) level.emissive[i] = emissive;
     }
 };
 
 }  // namespace
 
-MapLevel next_level(const MapLevel& level, Context& context) {
+MapLevel level_below(const MapLevel& level, int height) {
     MapLevel next;
     next.width = std::max(1, level.width / 2);
-    next.height = std::max(1, level.height / 2);
+    next.height = std::max(1, height / 2);
     next.diffuse.resize(next.texels());
     next.f0.resize(next.texels());
     next.metallic.resize(next.texels());
@@ -69,21 +71,37 @@ MapLevel next_level(const MapLevel& level, Context& context) {
     if (!level.normal.empty()) next.normal.resize(next.texels());
     if (!level.occlusion.empty()) next.occlusion.resize(next.texels());
     if (!level.opacity.empty()) next.opacity.resize(next.texels());
+    if (!level.emissive.empty()) next.emissive.resize(next.texels());
+    return next;
+}
+
+int first_row_under(int row, int height, const MapLevel& next) {
+    return row >= next.height ? height : cover(row, next.height, height).first;
+}
+
+int last_row_under(int row, int height, const MapLevel& next) {
+    const Cover rows = cover(row, next.height, height);
+    return rows.first + rows.count - 1;
+}
+
+void fill_row(const MapLevel& level, int first, int height, int y, MapLevel& next) {
+    const Cover rows = cover(y, next.height, height);
+    for (int x = 0; x < next.width; ++x) {
+        const Cover columns = cover(x, next.width, level.width);
+        Sums sums;
+        for (int j = 0; j < rows.count; ++j)
+            for (int i = 0; i < columns.count; ++i)
+                sums.add(
+                    level, static_cast<std::size_t>(rows.first - first + j) * level.width + columns.first + i,
+                    rows.share[static_cast<std::size_t>(j)] * columns.share[static_cast<std::size_t>(i)]);
+        sums.store(next, static_cast<std::size_t>(y) * next.width + x);
+    }
+}
+
+MapLevel next_level(const MapLevel& level, Context& context) {
+    MapLevel next = level_below(level, level.height);
     context.parallel_for(next.height, 16, [&](std::int64_t begin, std::int64_t end) {
-        for (auto y = static_cast<int>(begin); y < end; ++y) {
-            const Cover rows = cover(y, next.height, level.height);
-            for (int x = 0; x < next.width; ++x) {
-                const Cover columns = cover(x, next.width, level.width);
-                Sums sums;
-                for (int j = 0; j < rows.count; ++j)
-                    for (int i = 0; i < columns.count; ++i)
-                        sums.add(level,
-                                 static_cast<std::size_t>(rows.first + j) * level.width + columns.first + i,
-                                 rows.share[static_cast<std::size_t>(j)] *
-                                     columns.share[static_cast<std::size_t>(i)]);
-                sums.store(next, static_cast<std::size_t>(y) * next.width + x);
-            }
-        }
+        for (auto y = static_cast<int>(begin); y < end; ++y) fill_row(level, 0, level.height, y, next);
     });
     return next;
 }

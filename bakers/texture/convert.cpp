@@ -3,90 +3,111 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bakers/texture/calibrate.hpp"
-#include "bakers/texture/metal.hpp"
-
 namespace pbrbake::texture {
 namespace {
 
-constexpr std::int64_t kRows = 16;
 constexpr float kAllLight = 1.001f;  ///< a code's rounding is no sin
 /// Of diffuse albedo, linear: a half interval is wider near white, where an 8-bit code isn't worth more.
 constexpr float kLeastTolerance = 1e-6f, kLargestTolerance = .5f / 255;
 
-/// What a texel alone tells; the sums need an order and are made afterwards.
-struct Read {
-    std::vector<pbr::Quantisation<float>> steps;
-    std::vector<std::uint8_t> clamped;
-};
+}  // namespace
 
-Read read_level(const Sources& sources, MapLevel& level, Context& context) {
+Survey survey(const Sources& sources, Context& context) {
+    Survey result{find_calibration(sources, context), false, 0, find_doubts(sources)};
+    if (!sources.has_normal()) return result;
+    const TextureParams& params = sources.params();
+    result.green_correlation = green_correlation(sources, context);
+    constexpr double kTelling = .1;
+    result.green_down = params.normal_green == Green::down ||
+                        (params.normal_green == Green::automatic && result.green_correlation < -kTelling);
+    return result;
+}
+
+Converter::Converter(const Sources& sources, const Survey& survey, int most_rows)
+    : sources_(sources),
+      survey_(survey),
+      estimate_(sources, survey.calibration),
+      metal_(sources.width(), most_rows + 2 * kMetalReach, sources.params().wrap),
+      line_(static_cast<std::size_t>(sources.width())) {
+    MapLevel& level = rows_.level;
     level.width = sources.width();
-    level.height = sources.height();
+    level.height = most_rows;
     const std::size_t texels = level.texels();
     level.diffuse.resize(texels);
     level.f0.resize(texels);
+    level.metallic.resize(texels);
     level.perceptual_roughness.resize(texels);
     if (sources.has_normal()) level.normal.resize(texels);
     if (sources.has_occlusion()) level.occlusion.resize(texels);
     if (sources.has_opacity()) level.opacity.resize(texels);
-    Read read{std::vector<pbr::Quantisation<float>>(texels), std::vector<std::uint8_t>(texels)};
-    context.parallel_for(level.height, kRows, [&](std::int64_t begin, std::int64_t end) {
-        for (auto y = static_cast<int>(begin); y < end; ++y)
-            for (int x = 0; x < level.width; ++x) {
-                const std::size_t i = static_cast<std::size_t>(y) * level.width + x;
-                const LegacyTexel texel = sources.texel(x, y);
-                level.diffuse[i] = texel.reflected.diffuse;
-                level.f0[i] = texel.reflected.f0;
-                level.perceptual_roughness[i] = texel.perceptual_roughness;
-                read.steps[i] = texel.quantisation;
-                read.clamped[i] = texel.f0_clamped;
-                if (sources.has_normal()) level.normal[i] = sources.normal(x, y);
-                if (sources.has_occlusion()) level.occlusion[i] = sources.occlusion(x, y);
-                if (sources.has_opacity()) level.opacity[i] = sources.opacity(x, y);
-            }
-    });
-    context.count("texels", texels);
-    return read;
+    if (sources.has_emissive()) level.emissive.resize(texels);
+    rows_.confidence.resize(texels);
+    rows_.tolerance.resize(texels);
 }
 
-void turn_normals_up(const TextureParams& params, MapLevel& level, Findings& findings) {
-    if (level.normal.empty()) return;
-    findings.green_correlation = green_correlation(level);
-    constexpr double kTelling = .1;
-    findings.green_down = params.normal_green == Green::down ||
-                          (params.normal_green == Green::automatic && findings.green_correlation < -kTelling);
-    if (findings.green_down)
-        for (Colour& normal : level.normal) normal.y = -normal.y;
-}
-
-}  // namespace
-
-Converted convert(const Sources& sources, Context& context) {
-    Converted result;
-    MapLevel& level = result.level;
-    const TextureParams& params = sources.params();
-    const Read read = read_level(sources, level, context);
-    Findings& findings = result.findings;
-    turn_normals_up(params, level, findings);
-    calibrate(params, level, findings);
-    result.confidence = estimate_metal(params, read.steps, sources.coupling(), findings, level, context);
-
-    result.tolerance.resize(level.texels());
-    for (std::size_t i = 0; i < level.texels(); ++i) {
-        result.tolerance[i] =
-            glm::clamp(read.steps[i].diffuse, Colour(kLeastTolerance), Colour(kLargestTolerance));
-        findings.f0_clamped += read.clamped[i];
-        findings.over_unity += pbr::max_channel(level.diffuse[i] + level.f0[i]) > kAllLight ? 1 : 0;
-        findings.low_confidence += result.confidence[i] < .5f ? 1 : 0;
-        findings.metallic += static_cast<double>(level.metallic[i]);
-        findings.confidence += static_cast<double>(result.confidence[i]);
+const Rows& Converter::convert(int begin, int end, std::vector<Findings>& findings) {
+    MapLevel& level = rows_.level;
+    rows_.first = begin;
+    level.height = end - begin;
+    const int reach = estimate_.regularises() ? kMetalReach : 0;
+    for (int y = begin - reach; y < end + reach; ++y) {
+        const bool is_own = y >= begin && y < end;
+        read(y, y - begin + kMetalReach, is_own, is_own ? &findings[static_cast<std::size_t>(y)] : nullptr);
     }
-    for (double* sum : {&findings.f0_clamped, &findings.over_unity, &findings.low_confidence,
-                        &findings.metallic, &findings.confidence})
-        *sum /= static_cast<double>(level.texels());
-    findings.alpha = sources.has_opacity() && params.opacity.empty() ? "opacity" : "nothing";
-    return result;
+    for (int y = begin; y < end; ++y) {
+        float* metallic = level.metallic.data() + static_cast<std::size_t>(y - begin) * level.width;
+        if (reach > 0) metal_.regularise(y - begin + kMetalReach, metallic);
+        Findings& found = findings[static_cast<std::size_t>(y)];
+        for (int x = 0; x < level.width; ++x) found.metallic += static_cast<double>(metallic[x]);
+    }
+    return rows_;
+}
+
+int Converter::place(int y) const {
+    const int height = sources_.height();
+    return sources_.params().wrap == Wrap::repeat ? (y % height + height) % height
+                                                  : std::clamp(y, 0, height - 1);
+}
+
+/// Reads row y into a slot of the mask's rows; an own row into the maps too.
+void Converter::read(int y, int slot, bool is_own, Findings* findings) {
+    sources_.row(place(y), line_.data());
+    const auto f0_scale = static_cast<float>(survey_.calibration.scale);
+    if (findings) *findings = {};
+    for (int x = 0; x < sources_.width(); ++x) {
+        LegacyTexel& texel = line_[static_cast<std::size_t>(x)];
+        const pbr::Reflected<float> reflected = survey_.calibration(texel.reflected);
+        texel.quantisation.f0 *= f0_scale;
+        const pbr::MetallicEstimate<float> estimate = estimate_(reflected, texel.quantisation);
+        if (estimate_.regularises()) metal_.set(slot, x, reflected, estimate);
+        if (!is_own) continue;
+        const std::size_t i = static_cast<std::size_t>(y - rows_.first) * rows_.level.width + x;
+        read_own(x, y, texel, reflected);
+        rows_.level.metallic[i] = estimate.metallic;
+        rows_.confidence[i] = estimate.confidence;
+        findings->f0_clamped += texel.f0_clamped;
+        findings->over_unity += pbr::max_channel(reflected.diffuse + reflected.f0) > kAllLight ? 1 : 0;
+        findings->low_confidence += estimate.confidence < .5f ? 1 : 0;
+        findings->confidence += static_cast<double>(estimate.confidence);
+    }
+    if (estimate_.regularises()) metal_.close(slot);
+}
+
+void Converter::read_own(int x, int y, const LegacyTexel& texel, const pbr::Reflected<float>& reflected) {
+    MapLevel& level = rows_.level;
+    const std::size_t i = static_cast<std::size_t>(y - rows_.first) * level.width + x;
+    level.diffuse[i] = reflected.diffuse;
+    level.f0[i] = reflected.f0;
+    level.perceptual_roughness[i] = texel.perceptual_roughness;
+    rows_.tolerance[i] =
+        glm::clamp(texel.quantisation.diffuse, Colour(kLeastTolerance), Colour(kLargestTolerance));
+    if (sources_.has_normal()) {
+        level.normal[i] = sources_.normal(x, y);
+        if (survey_.green_down) level.normal[i].y = -level.normal[i].y;
+    }
+    if (sources_.has_occlusion()) level.occlusion[i] = sources_.occlusion(x, y);
+    if (sources_.has_opacity()) level.opacity[i] = sources_.opacity(x, y);
+    if (sources_.has_emissive()) level.emissive[i] = sources_.emissive(x, y);
 }
 
 }  // namespace pbrbake::texture

@@ -1,19 +1,50 @@
 #pragma once
-// From a set's files to the maps of its largest level.
+// From a set's files to the maps of its largest level, some rows at a time.
 
+#include "bakers/texture/calibrate.hpp"
+#include "bakers/texture/detect.hpp"
 #include "bakers/texture/maps.hpp"
+#include "bakers/texture/metal.hpp"
 
 namespace pbrbake::texture {
 
-/// The largest level, calibrated, with its metal mask.
-struct Converted {
-    MapLevel level;
-    Findings findings;
+/// What must be known of whole maps before a texel is converted.
+struct Survey {
+    Calibration calibration;
+    bool green_down = false;
+    double green_correlation = 0;  ///< > 0: y up; in [-1, 1]
+    Doubts doubts;
+};
+
+Survey survey(const Sources& sources, Context& context);
+
+/// Rows of the largest level, calibrated, with their metal mask.
+struct Rows {
+    MapLevel level;  ///< `height` rows, from `first` on
+    int first = 0;
     std::vector<float> confidence;
     /// What each texel's diffuse may be moved by: half its file's interval.
     std::vector<Colour> tolerance;
 };
 
-Converted convert(const Sources& sources, Context& context);
+/// Converts rows; holds the room for it, so keep one for many calls. A thread needs its own.
+class Converter {
+  public:
+    Converter(const Sources& sources, const Survey& survey, int most_rows);
+    /// Rows [begin, end), most_rows of them at most; each row's findings, as sums, go to findings[y].
+    const Rows& convert(int begin, int end, std::vector<Findings>& findings);
+
+  private:
+    int place(int y) const;
+    void read(int y, int slot, bool is_own, Findings* findings);
+    void read_own(int x, int y, const LegacyTexel& texel, const pbr::Reflected<float>& reflected);
+
+    const Sources& sources_;
+    const Survey& survey_;
+    MetalEstimator estimate_;
+    MetalRows metal_;
+    Rows rows_;
+    std::vector<LegacyTexel> line_;
+};
 
 }  // namespace pbrbake::texture

@@ -1,13 +1,19 @@
 #pragma once
-// NAME.material.gltf: a glTF 2.0 document of one material over the files that a bake writes.
+// What a baked set is as a glTF 2.0 material, and the document of that material over the files of a bake.
 
-#include "bakers/parse/materials.hpp"
+#include <optional>
+
+#include "bakers/texture/pack.hpp"
 
 namespace pbrbake::texture {
 
-/// `gltf` is that of material_json: names of images, and a material whose textures are indices of them. URIs
-/// are the files' names beside `first_file`, a PNG. What `source` says of opacity, emission and sides goes
-/// into the material; null: nothing.
-Json gltf_document(const Json& gltf, const std::string& first_file, const parse::LegacyMaterial* source);
+/// {"images": names, "material": a material whose textures are indices of them}. A dielectric f0 beside .04
+/// is KHR_materials_specular where it has a texture or a colour, KHR_materials_ior where it is one grey.
+/// `factors` is the one texel of a set without pictures.
+Json gltf_material(const TextureParams& params, const Layout& layout, float specular_unit,
+                   const std::optional<Unpacked>& factors);
+
+/// The document of gltf_material's result; its URIs are PNG files beside `file`, "X.gltf".
+Json gltf_document(const TextureParams& params, const Json& gltf, const std::string& file);
 
 }  // namespace pbrbake::texture

@@ -1,6 +1,9 @@
 #pragma once
 // A set's maps between its files and its packing: what surfaces reflect, texel by texel, linear and in float.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -22,26 +25,29 @@ struct LegacyTexel {
     pbr::Quantisation<float> quantisation;
 };
 
-/// The texels of one level of a converted set.
+/// The texels of one level of a converted set, or of some of its rows.
 struct MapLevel {
     int width = 0, height = 0;
     std::vector<Colour> diffuse, f0;
     std::vector<float> metallic, perceptual_roughness;
     std::vector<Colour> normal;             ///< y up; empty without a normal map
+    std::vector<Colour> emissive;           ///< empty without a map
     std::vector<float> occlusion, opacity;  ///< empty without a map
     std::size_t texels() const { return static_cast<std::size_t>(width) * height; }
 };
 
-/// What was found out about a set, for the record.
+/// Shares of texels and means over a set, for the record.
 struct Findings {
-    double specular_scale = 1;  ///< that calibration put on f0
-    std::string calibration = "none";
-    std::string surface = "any", surface_word;
-    std::string alpha = "nothing";
-    bool green_down = false;
-    double green_correlation = 0;  ///< > 0: y up; in [-1, 1]
-    double f0_clamped = 0, over_unity = 0, low_confidence = 0, metallic = 0,
-           confidence = 0;  ///< shares and means
+    double f0_clamped = 0, over_unity = 0, low_confidence = 0, metallic = 0, confidence = 0;
+
+    Findings& operator+=(const Findings& other) {
+        f0_clamped += other.f0_clamped;
+        over_unity += other.over_unity;
+        low_confidence += other.low_confidence;
+        metallic += other.metallic;
+        confidence += other.confidence;
+        return *this;
+    }
 };
 
 /// Reads texels of a set at any resolution: maps of other sizes are interpolated bilinearly.
@@ -55,13 +61,19 @@ class Sources {
 
     /// The texel of column x, row y, before calibration.
     LegacyTexel texel(int x, int y) const;
+    /// Those of row y, width() of them.
+    void row(int y, LegacyTexel* texels) const;
     Colour normal(int x, int y) const;  ///< y as stored
     float occlusion(int x, int y) const;
     float opacity(int x, int y) const;
+    Colour emissive(int x, int y) const;
+    /// The exponent that gloss stands for, where gloss_is says it holds one; else < 0. Needs has_gloss().
+    float exponent_at(int x, int y) const;
     bool has_normal() const { return normal_.image != nullptr; }
     bool has_occlusion() const { return occlusion_.image != nullptr; }
     bool has_opacity() const { return opacity_.image != nullptr; }
     bool has_gloss() const { return gloss_.image != nullptr; }
+    bool has_emissive() const { return emissive_.image != nullptr; }
     /// Whether the set says what it reflects: a map, or a factor.
     bool has_specular() const {
         return specular_.image || params_.specular_factor != std::vector<double>{1, 1, 1};
@@ -78,21 +90,44 @@ class Sources {
         bool is_srgb = false;
     };
     void fetch(const Map& map, int x, int y, float* values, int count) const;
+    void choose_normal();
     void choose_gloss();
     void choose_opacity();
+    void tabulate_gloss();
     float exponent(float gloss) const;
-    float perceptual_roughness(int x, int y, float& exponent) const;
+    float perceptual_roughness(float gloss, float& exponent) const;
+
+    /// What a gloss value stands for.
+    struct Lobe {
+        float perceptual_roughness = .5f;
+        float mean = 0;             ///< albedo of the legacy lobe
+        pbr::MeanAlbedo ggx{0, 0};  ///< of the PBR lobe
+    };
+    bool has_legacy_lobe() const { return params_.model != Model::specular_gloss && has_specular(); }
+    Lobe lobe_of(float gloss) const;
+    Lobe lobe_at(int x, int y) const;
     Map map_of(const std::string& field, int channel) const;
 
     const TextureParams& params_;
     const Inputs& inputs_;
     int width_ = 1, height_ = 1;  ///< of factors alone
-    Map diffuse_, specular_, gloss_, normal_, occlusion_, opacity_;
+    Map diffuse_, specular_, gloss_, normal_, occlusion_, opacity_, emissive_;
+    bool is_gloss_constant_ = false;  ///< gloss_factor everywhere
     pbr::DiffuseCoupling coupling_;
+    std::vector<Lobe> lobes_;  ///< of the codes of an 8-bit gloss map, or the one lobe without a map
     std::vector<std::string> warnings_;
 };
 
+/// Slope of IEC 61966-2-1's decoding curve over the square root of the linear value, in 256 steps.
+extern const std::array<float, 257> kSrgbSlopes;
+
 /// Half the linear interval of a code of `bits` (0: float) at a linear value.
-float half_step(float linear, int bits, bool is_srgb);
+inline float half_step(float linear, int bits, bool is_srgb) {
+    if (bits == 0) return 0;
+    const float step = .5f / static_cast<float>((1 << std::min(bits, 16)) - 1);
+    if (!is_srgb) return step;
+    const float root = std::sqrt(std::clamp(linear, 0.f, 1.f));
+    return step * kSrgbSlopes[static_cast<std::size_t>(root * 256)];
+}
 
 }  // namespace pbrbake::texture

@@ -2,94 +2,118 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
 
 namespace pbrbake::texture {
 namespace {
 
-constexpr std::int64_t kRows = 16;
 constexpr float kSure = .95f;  ///< texels this sure keep their own estimate
-
-/// Weighted mean of the sure neighbours that look alike, 5 x 5: the texel's doubt is filled from them. A
-/// joint bilateral filter (Petschnigg et al. 2004) with confidence as a weight; rational instead of Gaussian.
-float neighbours_metallic(const TextureParams& params, const MapLevel& level,
-                          const std::vector<float>& metallic, const std::vector<float>& confidence, int x,
-                          int y) {
-    constexpr int kReach = 2;
-    constexpr float kAlike = .05f;  // of diffuse and f0, the distance at which likeness is half
-    const auto place = [&](int at, int size) {
-        if (at >= 0 && at < size) return at;
-        return params.wrap == Wrap::repeat ? (at % size + size) % size : std::clamp(at, 0, size - 1);
-    };
-    std::array<int, 2 * kReach + 1> columns{};
-    for (int dx = -kReach; dx <= kReach; ++dx)
-        columns[static_cast<std::size_t>(dx + kReach)] = place(x + dx, level.width);
-    const std::size_t centre = static_cast<std::size_t>(y) * level.width + x;
-    const Colour diffuse = level.diffuse[centre], f0 = level.f0[centre];
-    float sum = metallic[centre] * 1e-3f, weights = 1e-3f;
-    for (int dy = -kReach; dy <= kReach; ++dy) {
-        const std::size_t row = static_cast<std::size_t>(place(y + dy, level.height)) * level.width;
-        for (const int column : columns) {
-            const std::size_t i = row + column;
-            if (confidence[i] <= 0 || i == centre) continue;
-            const Colour d = level.diffuse[i] - diffuse, s = level.f0[i] - f0;
-            const float far = glm::dot(d, d) + glm::dot(s, s);
-            const float weight = confidence[i] / (1 + far / (kAlike * kAlike));
-            sum += weight * metallic[i];
-            weights += weight;
-        }
-    }
-    return sum / weights;
-}
-
-void regularise(const TextureParams& params, const std::vector<float>& confidence, MapLevel& level,
-                Context& context) {
-    const std::vector<float> estimate = level.metallic;
-    context.parallel_for(level.height, kRows, [&](std::int64_t begin, std::int64_t end) {
-        for (auto y = static_cast<int>(begin); y < end; ++y)
-            for (int x = 0; x < level.width; ++x) {
-                const std::size_t i = static_cast<std::size_t>(y) * level.width + x;
-                if (confidence[i] >= kSure) continue;
-                const float doubt = 1 - confidence[i] / kSure;
-                level.metallic[i] +=
-                    doubt * (neighbours_metallic(params, level, estimate, confidence, x, y) - estimate[i]);
-            }
-    });
-}
+constexpr int kRun = 64;       ///< texels that are filled at a time
 
 }  // namespace
 
-std::vector<float> estimate_metal(const TextureParams& params,
-                                  const std::vector<pbr::Quantisation<float>>& steps,
-                                  pbr::DiffuseCoupling coupling, const Findings& findings, MapLevel& level,
-                                  Context& context) {
-    std::vector<float> confidence(level.texels());
-    level.metallic.resize(level.texels());
+MetalEstimator::MetalEstimator(const Sources& sources, const Calibration& calibration)
+    : prior_{static_cast<float>(sources.params().dielectric_f0),
+             static_cast<float>(sources.params().f0_tolerance), .01f},
+      coupling_(sources.coupling()),
+      regularises_(sources.params().regularise && calibration.surface == "any") {
+    constexpr float kGuessedScale = .5f;
+    if (calibration.surface != "any") told_ = calibration.surface == "metal" ? 1.f : 0.f;
+    if (calibration.kind == Calibration::Kind::statistics) trust_ = kGuessedScale;
+}
+
+pbr::MetallicEstimate<float> MetalEstimator::operator()(const pbr::Reflected<float>& reflected,
+                                                        const pbr::Quantisation<float>& step) const {
     // A surface that its name or the job tells is no estimate.
-    constexpr float kTold = .9f, kGuessedScale = .5f;
-    if (findings.surface != "any") {
-        std::ranges::fill(level.metallic, findings.surface == "metal" ? 1.f : 0.f);
-        std::ranges::fill(confidence, kTold);
-        return confidence;
+    constexpr float kTold = .9f;
+    if (told_ >= 0) return {told_, kTold};
+    pbr::MetallicEstimate<float> found = pbr::estimate_metallic<float>(reflected, prior_, step, coupling_);
+    found.confidence *= trust_;
+    return found;
+}
+
+MetalRows::MetalRows(int width, int rows, Wrap wrap)
+    : width_(width),
+      rows_(rows),
+      pitch_(width + 2 * kMetalReach),
+      wrap_(wrap),
+      values_(static_cast<std::size_t>(planes) * rows * pitch_) {}
+
+void MetalRows::set(int row, int x, const pbr::Reflected<float>& reflected,
+                    const pbr::MetallicEstimate<float>& estimate) {
+    for (int c = 0; c < 3; ++c) {
+        plane(diffuse + c, row)[x] = reflected.diffuse[c];
+        plane(f0 + c, row)[x] = reflected.f0[c];
     }
-    const pbr::MetallicPrior<float> prior{static_cast<float>(params.dielectric_f0),
-                                          static_cast<float>(params.f0_tolerance), .01f};
-    const auto scale = static_cast<float>(findings.specular_scale);
-    const float trust = findings.calibration == "statistics" ? kGuessedScale : 1.f;
-    context.parallel_for(level.height, kRows, [&](std::int64_t begin, std::int64_t end) {
-        const std::size_t last = static_cast<std::size_t>(end) * level.width;
-        for (std::size_t i = static_cast<std::size_t>(begin) * level.width; i < last; ++i) {
-            pbr::Quantisation<float> step = steps[i];
-            step.f0 *= scale;
-            const auto found =
-                pbr::estimate_metallic<float>({level.diffuse[i], level.f0[i]}, prior, step, coupling);
-            level.metallic[i] = found.metallic;
-            confidence[i] = found.confidence * trust;
+    plane(metallic, row)[x] = estimate.metallic;
+    plane(confidence, row)[x] = estimate.confidence;
+}
+
+void MetalRows::close(int row) {
+    const auto place = [&](int x) {
+        return wrap_ == Wrap::repeat ? (x % width_ + width_) % width_ : std::clamp(x, 0, width_ - 1);
+    };
+    for (int p = 0; p < planes; ++p) {
+        float* values = plane(p, row);
+        for (int i = 1; i <= kMetalReach; ++i) {
+            values[-i] = values[place(-i)];
+            values[width_ - 1 + i] = values[place(width_ - 1 + i)];
         }
-    });
-    if (params.regularise) regularise(params, confidence, level, context);
-    return confidence;
+    }
+}
+
+void MetalRows::regularise(int row, float* out) const {
+    const float* sure = plane(confidence, row);
+    std::copy_n(plane(metallic, row), width_, out);
+    for (int begin = 0; begin < width_; ++begin) {
+        if (sure[begin] >= kSure) continue;
+        int end = begin + 1;
+        while (end < width_ && end - begin < kRun && sure[end] < kSure) ++end;
+        regularise_run(row, begin, end, out);
+        begin = end - 1;
+    }
+}
+
+/// Weighted mean of the sure neighbours that look alike: a joint bilateral filter (Petschnigg et al. 2004)
+/// with confidence as a weight; rational instead of Gaussian. Planes and runs, so that compilers vectorise.
+void MetalRows::regularise_run(int row, int begin, int end, float* out) const {
+    constexpr float kAlike2 = .05f * .05f;  // squared distance in diffuse and f0 at which likeness is half
+    constexpr float kOwn = 1e-3f;
+    const int count = end - begin;
+    std::array<float, kRun> sum, weights;
+    const float* own = plane(metallic, row) + begin;
+    for (int i = 0; i < count; ++i) {
+        sum[static_cast<std::size_t>(i)] = own[i] * kOwn;
+        weights[static_cast<std::size_t>(i)] = kOwn;
+    }
+    std::array<const float*, 6> here;
+    for (int c = 0; c < 6; ++c) here[static_cast<std::size_t>(c)] = plane(c, row) + begin;
+    for (int dy = -kMetalReach; dy <= kMetalReach; ++dy) {
+        const float* near = plane(confidence, row + dy) + begin;
+        if (std::all_of(near - kMetalReach, near + count + kMetalReach, [](float c) { return c <= 0; }))
+            continue;
+        for (int dx = -kMetalReach; dx <= kMetalReach; ++dx) {
+            if (dx == 0 && dy == 0) continue;
+            std::array<const float*, planes> there;
+            for (int p = 0; p < planes; ++p)
+                there[static_cast<std::size_t>(p)] = plane(p, row + dy) + begin + dx;
+            for (int i = 0; i < count; ++i) {
+                float far = 0;
+                for (std::size_t c = 0; c < 6; ++c) {
+                    const float d = there[c][i] - here[c][i];
+                    far += d * d;
+                }
+                const float weight = there[confidence][i] * (kAlike2 / (kAlike2 + far));
+                sum[static_cast<std::size_t>(i)] += weight * there[metallic][i];
+                weights[static_cast<std::size_t>(i)] += weight;
+            }
+        }
+    }
+    const float* sure = plane(confidence, row) + begin;
+    for (int i = 0; i < count; ++i) {
+        const float doubt = 1 - sure[i] / kSure;
+        out[begin + i] +=
+            doubt * (sum[static_cast<std::size_t>(i)] / weights[static_cast<std::size_t>(i)] - own[i]);
+    }
 }
 
 }  // namespace pbrbake::texture

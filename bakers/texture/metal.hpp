@@ -1,15 +1,58 @@
 #pragma once
 // The metal mask: an estimate a texel, then along the picture's regions where a texel alone can't tell.
 
+#include "bakers/texture/calibrate.hpp"
 #include "bakers/texture/maps.hpp"
 
 namespace pbrbake::texture {
 
-/// Fills level.metallic; returns the confidence of each texel. `quantisation` is a half interval a texel, on
-/// f0 as calibrated.
-std::vector<float> estimate_metal(const TextureParams& params,
-                                  const std::vector<pbr::Quantisation<float>>& steps,
-                                  pbr::DiffuseCoupling coupling, const Findings& findings, MapLevel& level,
-                                  Context& context);
+/// Rows above and below that a row's mask depends on.
+inline constexpr int kMetalReach = 2;
+
+/// Estimates metallic and confidence of one texel at a time; reflected light and `step`, a half interval, are
+/// as calibrated.
+class MetalEstimator {
+  public:
+    MetalEstimator(const Sources& sources, const Calibration& calibration);
+    pbr::MetallicEstimate<float> operator()(const pbr::Reflected<float>& reflected,
+                                            const pbr::Quantisation<float>& step) const;
+    /// Whether texels are estimates, and neighbours may tell more.
+    bool regularises() const { return regularises_; }
+
+  private:
+    float told_ = -1;  ///< metallic of the whole set, where it is known; else < 0
+    float trust_ = 1;
+    pbr::MetallicPrior<float> prior_;
+    pbr::DiffuseCoupling coupling_;
+    bool regularises_;
+};
+
+/// Rows of a set laid out for the mask: a plane each of diffuse, f0, metallic and confidence, with
+/// kMetalReach columns more on either side.
+class MetalRows {
+  public:
+    MetalRows(int width, int rows, Wrap wrap);
+    void set(int row, int x, const pbr::Reflected<float>& reflected,
+             const pbr::MetallicEstimate<float>& estimate);
+    /// Fills the columns on either side of a row that is complete.
+    void close(int row);
+    /// The mask of a row, whose neighbours up to kMetalReach away are complete: where a texel's confidence is
+    /// below .95, from the sure ones of the 5 x 5 around it that look alike.
+    void regularise(int row, float* metallic) const;
+
+  private:
+    enum Plane { diffuse = 0, f0 = 3, metallic = 6, confidence = 7, planes = 8 };
+    const float* plane(int plane, int row) const {
+        return values_.data() + (static_cast<std::size_t>(plane) * rows_ + row) * pitch_ + kMetalReach;
+    }
+    float* plane(int plane, int row) {
+        return const_cast<float*>(static_cast<const MetalRows*>(this)->plane(plane, row));
+    }
+    void regularise_run(int row, int begin, int end, float* metallic) const;
+
+    int width_, rows_, pitch_;
+    Wrap wrap_;
+    std::vector<float> values_;
+};
 
 }  // namespace pbrbake::texture

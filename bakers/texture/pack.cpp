@@ -57,6 +57,10 @@ float encoded(Held held, const MapLevel& level, const pbr::MetallicMaterial<floa
             return std::min(1.f,
                             material.dielectric_f0[static_cast<int>(held) - static_cast<int>(dielectric_r)] /
                                 specular_unit);
+        case emissive_r:
+        case emissive_g:
+        case emissive_b:
+            return level.emissive[i][static_cast<int>(held) - static_cast<int>(emissive_r)];
     }
     return 0;
 }
@@ -94,9 +98,7 @@ void decode(Held held, float value, float specular_unit, Unpacked& result) {
     }
 }
 
-}  // namespace
-
-Layout layout_of(const TextureParams& params, bool has_opacity) {
+Layout make_layout(const TextureParams& params, bool has_normal, bool has_opacity) {
     Layout layout;
     layout.images.push_back(base_image(has_opacity));
     const auto add = [&](std::string name, std::vector<Held> channels, bool is_colour = false) {
@@ -128,10 +130,25 @@ Layout layout_of(const TextureParams& params, bool has_opacity) {
             if (!params.occlusion.empty()) add("occlusion", {occlusion});
             break;
     }
-    if (!params.normal.empty()) add("normal", {normal_x, down ? normal_y_down : normal_y, normal_z});
+    if (has_normal) add("normal", {normal_x, down ? normal_y_down : normal_y, normal_z});
     layout.has_residual = params.packing == Packing::gltf && params.residual;
     if (layout.has_residual) add("specular", {dielectric_r, dielectric_g, dielectric_b}, true);
+    if (params.packing == Packing::gltf && !params.emissive.empty())
+        add("emissive", {emissive_r, emissive_g, emissive_b}, true);
     return layout;
+}
+
+}  // namespace
+
+Layout layout_of(const Sources& sources) {
+    return make_layout(sources.params(), sources.has_normal(), sources.has_opacity());
+}
+
+std::vector<std::string> image_names(const TextureParams& params) {
+    std::vector<std::string> names;
+    for (const PackedImage& image : make_layout(params, !params.normal.empty(), false).images)
+        names.push_back(image.name);
+    return names;
 }
 
 pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,
@@ -144,23 +161,16 @@ pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layo
                                                 layout.coupling);
 }
 
-std::vector<Level> pack(const TextureParams&, const Layout& layout, const MapLevel& level,
-                        const std::vector<pbr::MetallicMaterial<float>>& materials, float specular_unit,
-                        Context& context) {
-    std::vector<Level> levels;
-    for (const PackedImage& image : layout.images) {
-        const std::size_t channels = image.channels.size();
-        Level packed{level.width, level.height, std::vector<float>(level.texels() * channels)};
-        context.parallel_for(level.height, 16, [&](std::int64_t begin, std::int64_t end) {
-            const std::size_t last = static_cast<std::size_t>(end) * level.width;
-            for (std::size_t i = static_cast<std::size_t>(begin) * level.width; i < last; ++i)
-                for (std::size_t c = 0; c < channels; ++c)
-                    packed.texels[i * channels + c] =
-                        encoded(image.channels[c], level, materials[i], i, specular_unit);
-        });
-        levels.push_back(std::move(packed));
+void pack(const PackedImage& image, const MapLevel& level, std::size_t begin, std::size_t end,
+          const pbr::MetallicMaterial<float>* materials, float specular_unit, std::size_t to,
+          std::vector<float>& packed) {
+    const std::size_t channels = image.channels.size();
+    for (std::size_t c = 0; c < channels; ++c) {
+        const Held held = image.channels[c];
+        float* values = packed.data() + to * channels + c;
+        for (std::size_t i = begin; i < end; ++i, values += channels)
+            *values = encoded(held, level, materials[i - begin], i, specular_unit);
     }
-    return levels;
 }
 
 Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x,

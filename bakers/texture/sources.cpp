@@ -13,27 +13,22 @@
 namespace pbrbake::texture {
 namespace {
 
-/// Slope of IEC 61966-2-1's decoding curve over the square root of the linear value, in 256 steps.
-const std::array<float, 257>& srgb_slopes() {
-    static const std::array<float, 257> table = [] {
-        std::array<float, 257> slopes{};
-        for (std::size_t i = 0; i < slopes.size(); ++i) {
-            const double root = static_cast<double>(i) / 256, linear = root * root;
-            slopes[i] = static_cast<float>(
-                linear <= .0031308 ? 1 / 12.92
-                                   : 2.4 / 1.055 * pbr::exp_exact(1.4 / 2.4 * pbr::log_exact(linear)));
-        }
-        return slopes;
-    }();
-    return table;
-}
-
 bool varies(const Image& image, int channel) {
     const std::vector<float>& texels = image.levels.front().texels;
     const std::size_t channels = image.channels.size();
     for (std::size_t i = static_cast<std::size_t>(channel); i < texels.size(); i += channels)
         if (texels[i] != texels[static_cast<std::size_t>(channel)]) return true;
     return false;
+}
+
+/// Heights and the like: tangent-space normals point up, so they are blue.
+bool is_grey(const Image& image) {
+    const std::size_t channels = image.channels.size();
+    const std::vector<float>& texels = image.levels.front().texels;
+    if (channels < 3) return true;
+    for (std::size_t i = 0; i + 2 < texels.size(); i += channels)
+        if (texels[i] != texels[i + 1] || texels[i] != texels[i + 2]) return false;
+    return true;
 }
 
 pbr::PhongNorm norm_of(Norm norm) { return static_cast<pbr::PhongNorm>(norm); }
@@ -43,17 +38,20 @@ static_assert(static_cast<int>(Norm::over_pi) == static_cast<int>(pbr::PhongNorm
 
 }  // namespace
 
-float half_step(float linear, int bits, bool is_srgb) {
-    if (bits == 0) return 0;
-    const float step = .5f / static_cast<float>((1 << std::min(bits, 16)) - 1);
-    if (!is_srgb) return step;
-    const float root = std::sqrt(std::clamp(linear, 0.f, 1.f));
-    return step * srgb_slopes()[static_cast<std::size_t>(root * 256)];
-}
+const std::array<float, 257> kSrgbSlopes = [] {
+    std::array<float, 257> slopes{};
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        const double root = static_cast<double>(i) / 256, linear = root * root;
+        slopes[i] = static_cast<float>(
+            linear <= .0031308 ? 1 / 12.92
+                               : 2.4 / 1.055 * pbr::exp_exact(1.4 / 2.4 * pbr::log_exact(linear)));
+    }
+    return slopes;
+}();
 
 Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(params), inputs_(inputs) {
     for (const auto& [field, source] : inputs) {
-        if (source.image.levels.empty()) continue;  // a material
+        if (source.image.levels.empty()) continue;  // the text of materials
         if (source.image.faces != 1)
             throw Error(ExitCode::unreadable_input, "",
                         field + ": is a cube map; a texture set is of flat pictures");
@@ -62,21 +60,24 @@ Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(pa
     }
     diffuse_ = map_of("diffuse", 0);
     specular_ = map_of("specular", 0);
-    normal_ = map_of("normal", 0);
     occlusion_ = map_of("occlusion", 0);
+    emissive_ = map_of("emissive", 0);
+    choose_normal();
     choose_gloss();
     choose_opacity();
+    tabulate_gloss();
     const bool coupled =
         params.diffuse_coupling == Coupling::fresnel ||
         (params.diffuse_coupling == Coupling::automatic && params.model == Model::specular_gloss);
     coupling_ = coupled ? pbr::DiffuseCoupling::fresnel : pbr::DiffuseCoupling::none;
-    for (const auto& [field, source] : inputs)
-        if (!source.image.levels.empty() &&
-            (source.image.levels.front().width != width_ || source.image.levels.front().height != height_))
-            warnings_.push_back(field + ": is " + std::to_string(source.image.levels.front().width) + " x " +
-                                std::to_string(source.image.levels.front().height) +
-                                ", interpolated to the set's " + std::to_string(width_) + " x " +
-                                std::to_string(height_));
+    for (const auto& [field, source] : inputs) {
+        if (source.image.levels.empty()) continue;
+        const Level& level = source.image.levels.front();
+        if (level.width != width_ || level.height != height_)
+            warnings_.push_back(field + ": is " + std::to_string(level.width) + " x " +
+                                std::to_string(level.height) + ", interpolated to the set's " +
+                                std::to_string(width_) + " x " + std::to_string(height_));
+    }
 }
 
 /// No map where the set has no such file, or that no such channel.
@@ -88,6 +89,13 @@ Sources::Map Sources::map_of(const std::string& field, int channel) const {
             channel < 3 && source.colour_space.find("srgb") != std::string::npos};
 }
 
+void Sources::choose_normal() {
+    normal_ = map_of("normal", 0);
+    if (!normal_.image || !is_grey(*normal_.image)) return;
+    normal_ = {};
+    warnings_.push_back("normal: is grey, so it holds heights and no normals; left out");
+}
+
 void Sources::choose_gloss() {
     const bool is_auto = params_.gloss_in == GlossIn::automatic;
     const auto take = [&](GlossIn where, const char* field, int channel) {
@@ -95,6 +103,8 @@ void Sources::choose_gloss() {
         const Map map = map_of(field, channel);
         // An alpha that is the same everywhere was added by a file format.
         if (map.image && (!is_auto || channel == 0 || varies(*map.image, channel))) gloss_ = map;
+        // Nor does a picture whose alpha is 1 need to store it.
+        is_gloss_constant_ |= !is_auto && !map.image && channel == 3 && inputs_.contains(field);
     };
     take(GlossIn::gloss, "gloss", 0);
     take(GlossIn::specular_alpha, "specular", 3);
@@ -102,7 +112,8 @@ void Sources::choose_gloss() {
         take(GlossIn::diffuse_alpha, "diffuse", 3);
         take(GlossIn::normal_alpha, "normal", 3);
     }
-    if (gloss_.image || params_.gloss_in == GlossIn::constant) return;
+    is_gloss_constant_ |= params_.gloss_in == GlossIn::constant;
+    if (gloss_.image || is_gloss_constant_) return;
     if (!is_auto)
         throw Error(ExitCode::unreadable_input, "",
                     "gloss_in: found \"" + std::string(enum_name(params_.gloss_in)) +
@@ -153,26 +164,64 @@ float Sources::exponent(float gloss) const {
     return -1;
 }
 
-float Sources::perceptual_roughness(int x, int y, float& n) const {
+float Sources::exponent_at(int x, int y) const {
+    float gloss = 0;
+    fetch(gloss_, x, y, &gloss, 1);
+    return exponent(gloss * static_cast<float>(params_.gloss_factor));
+}
+
+/// Of a gloss value times its factor; `n` becomes the exponent.
+float Sources::perceptual_roughness(float gloss, float& n) const {
     const bool is_phong = params_.model == Model::phong;
     const auto of_exponent = [&](float power) {
         const float blinn = is_phong ? pbr::blinn_phong_from_phong(power) : power;
         return pbr::perceptual_roughness_from_alpha(pbr::alpha_from_blinn_phong(blinn, fit_of(params_.fit)));
     };
-    n = static_cast<float>(params_.power);
-    if (!gloss_.image && params_.gloss_in != GlossIn::constant) return n > 0 ? of_exponent(n) : .5f;
-    float gloss = 1;
-    if (gloss_.image) fetch(gloss_, x, y, &gloss, 1);
-    gloss *= static_cast<float>(params_.gloss_factor);
-    n = exponent(gloss);
+    constexpr float kAssumed = .5f;  // of a set that says nothing
+    const bool has_value = gloss_.image || is_gloss_constant_;
+    n = has_value ? exponent(gloss) : params_.power > 0 ? static_cast<float>(params_.power) : -1;
     if (n >= 0) return of_exponent(n);
     const float value = std::clamp(gloss, 0.f, 1.f);
-    const float p = params_.gloss_is == GlossIs::perceptual_roughness ? value
+    const float p = !has_value                                          ? kAssumed
+                    : params_.gloss_is == GlossIs::perceptual_roughness ? value
                     : params_.gloss_is == GlossIs::alpha ? pbr::perceptual_roughness_from_alpha(value)
                                                          : pbr::perceptual_roughness_from_smoothness(value);
     n = pbr::blinn_phong_from_alpha(pbr::alpha_from_perceptual_roughness(p), fit_of(params_.fit)) /
         (is_phong ? 4.f : 1.f);
     return p;
+}
+
+Sources::Lobe Sources::lobe_of(float gloss) const {
+    Lobe lobe;
+    float n = 0;
+    lobe.perceptual_roughness = perceptual_roughness(gloss * static_cast<float>(params_.gloss_factor), n);
+    if (!has_legacy_lobe()) return lobe;
+    const auto kind = params_.model == Model::phong ? pbr::PhongLobe::mirror : pbr::PhongLobe::blinn;
+    lobe.mean = pbr::phong_albedo(norm_of(params_.norm), kind, n).mean;
+    lobe.ggx = pbr::mean_albedo_ggx(static_cast<double>(lobe.perceptual_roughness));
+    return lobe;
+}
+
+void Sources::tabulate_gloss() {
+    if (!gloss_.image)
+        lobes_.push_back(lobe_of(1));
+    else if (gloss_.bits == 8 && !gloss_.is_srgb)
+        for (int code = 0; code < 256; ++code) lobes_.push_back(lobe_of(static_cast<float>(code / 255.)));
+}
+
+Sources::Lobe Sources::lobe_at(int x, int y) const {
+    if (!gloss_.image) return lobes_.front();
+    float gloss = 0;
+    fetch(gloss_, x, y, &gloss, 1);
+    if (!lobes_.empty() && gloss >= 0 && gloss <= 1) {
+        const auto code = static_cast<std::size_t>(gloss * 255 + .5f);
+        if (static_cast<float>(static_cast<double>(code) / 255.) == gloss) return lobes_[code];
+    }
+    return lobe_of(gloss);
+}
+
+void Sources::row(int y, LegacyTexel* texels) const {
+    for (int x = 0; x < width_; ++x) texels[x] = texel(x, y);
 }
 
 LegacyTexel Sources::texel(int x, int y) const {
@@ -191,25 +240,21 @@ LegacyTexel Sources::texel(int x, int y) const {
     const Colour diffuse = colour(diffuse_, params_.diffuse_factor, texel.quantisation.diffuse);
     Colour specular = colour(specular_, params_.specular_factor, texel.quantisation.f0);
     if (!has_specular()) specular = Colour(static_cast<float>(params_.dielectric_f0));
-    float n = 0;
-    texel.perceptual_roughness = perceptual_roughness(x, y, n);
-    if (params_.model == Model::specular_gloss || !has_specular()) {
+    const Lobe lobe = lobe_at(x, y);
+    texel.perceptual_roughness = lobe.perceptual_roughness;
+    if (!has_legacy_lobe()) {
         texel.reflected = pbr::reflected_from_specular(diffuse, specular, coupling_);
         if (coupling_ == pbr::DiffuseCoupling::fresnel)
             texel.quantisation.diffuse *= 1 - pbr::max_channel(specular);
         return texel;
     }
-    const auto lobe = params_.model == Model::phong ? pbr::PhongLobe::mirror : pbr::PhongLobe::blinn;
-    const float mean = pbr::phong_albedo(norm_of(params_.norm), lobe, n).mean;
-    texel.specular_albedo = specular * mean;
+    texel.specular_albedo = specular * lobe.mean;
     const auto scattering = params_.multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
     const float grey = pbr::mean_channel(texel.specular_albedo);
-    const pbr::SolvedF0 solved = pbr::f0_from_mean_albedo(
-        static_cast<double>(grey), pbr::mean_albedo_ggx(static_cast<double>(texel.perceptual_roughness)),
-        scattering);
+    const pbr::SolvedF0 solved = pbr::f0_from_mean_albedo(static_cast<double>(grey), lobe.ggx, scattering);
     const float scale = grey > 0 ? static_cast<float>(solved.f0) / grey : 0;
     texel.reflected = {diffuse, glm::min(texel.specular_albedo * scale, Colour(1))};
-    texel.quantisation.f0 *= mean * scale;
+    texel.quantisation.f0 *= lobe.mean * scale;
     texel.f0_clamped = solved.clamped || pbr::max_channel(texel.specular_albedo) * scale > 1;
     return texel;
 }
@@ -231,6 +276,12 @@ float Sources::opacity(int x, int y) const {
     float value = 1;
     fetch(opacity_, x, y, &value, 1);
     return std::clamp(value, 0.f, 1.f);
+}
+
+Colour Sources::emissive(int x, int y) const {
+    Colour value;
+    fetch(emissive_, x, y, &value.x, 3);
+    return glm::clamp(value, Colour(0), Colour(1));
 }
 
 }  // namespace pbrbake::texture

@@ -8,6 +8,7 @@
 #include "bakers/io/io.hpp"
 #include "bakers/job/json_text.hpp"
 #include "bakers/verify/diagnose.hpp"
+#include "bakers/verify/face.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/product_file.hpp"
 #include "bakers/workers.hpp"
@@ -15,8 +16,6 @@
 namespace pbrbake::verify {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::array<const char*, 6> kFaceNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
 std::string size_text(const Level& level) {
     return std::to_string(level.width) + " x " + std::to_string(level.height);
@@ -146,9 +145,9 @@ class ProductCheck {
 
     void check_geometry() {
         const Image &a = a_.image, &b = b_.image;
-        if (a.faces != b.faces) {
+        if (a.faces != b.faces || a.is_volume != b.is_volume) {
             result_.reasons.push_back("has " + pair_text(std::to_string(a.faces), std::to_string(b.faces)) +
-                                      " faces");
+                                      (b.is_volume ? " slices" : " faces"));
             comparable_ = false;
         }
         if (a.channels.size() != b.channels.size()) comparable_ = false;
@@ -221,7 +220,7 @@ class ProductCheck {
         }
         result_.verdict = Verdict::within;
         hold_thresholds();
-        if (b_.image.faces == 6 && b_.image.channels.size() == 3 && !has_non_finite()) hold_flip();
+        if (b_.image.is_cube() && b_.image.channels.size() == 3 && !has_non_finite()) hold_flip();
         if (!result_.reasons.empty()) result_.looks_like = diagnose(a_.image, b_);
     }
 
@@ -232,7 +231,7 @@ class ProductCheck {
                     &of_b = b_.image.levels[static_cast<std::size_t>(level)];
         const std::size_t channels = b_.image.channels.size(),
                           texels = static_cast<std::size_t>(of_b.width) * of_b.height;
-        const std::vector<double> weights = texel_weights(of_b, b_.image.faces == 6);
+        const std::vector<double> weights = texel_weights(of_b, b_.image.is_cube());
         Samples samples;
         samples.weight = weights;
         for (std::size_t c = 0; c < channels; ++c) {
@@ -279,10 +278,11 @@ class ProductCheck {
     }
 
     std::string place_text(const PlaceErrors& place) const {
-        std::string text = b_.image.levels.size() > 1 || b_.image.faces == 6
+        std::string text = b_.image.levels.size() > 1 || b_.image.is_cube()
                                ? "level " + std::to_string(place.level) + ", "
                                : "";
-        if (place.face >= 0 && b_.image.faces == 6)
+        if (place.face >= 0 && b_.image.is_volume) text += "slice " + std::to_string(place.face) + ", ";
+        if (place.face >= 0 && b_.image.is_cube())
             text += std::string("face ") + kFaceNames[static_cast<std::size_t>(place.face)] + ", ";
         return text + "channel " + b_.image.channels[static_cast<std::size_t>(place.channel)];
     }

@@ -21,7 +21,7 @@ constexpr double kUnclipped = 0.98;
 /// One level as an image of its own, three channels, divided by the scale; sides halved until small enough.
 Image shown_level(const ProductFile& product, int level) {
     const Level& from = product.image.levels[static_cast<std::size_t>(level)];
-    const int most = product.image.faces == 6 ? kLargestFace : kLargestPicture;
+    const int most = product.image.is_cube() ? kLargestFace : kLargestPicture;
     int step = 1;
     while (std::max(from.width, from.height) / step > most) step *= 2;
     const int width = std::max(1, from.width / step), height = std::max(1, from.height / step);
@@ -29,6 +29,7 @@ Image shown_level(const ProductFile& product, int level) {
     Image image;
     image.channels = {"R", "G", "B"};
     image.faces = product.image.faces;
+    image.is_volume = product.image.is_volume;
     image.levels.push_back(
         {width, height, std::vector<float>(static_cast<std::size_t>(image.faces) * width * height * 3)});
     for (int face = 0; face < image.faces; ++face)
@@ -55,20 +56,20 @@ double exposure_of(const Image& image) {
     return most > 0 ? 1 / most : 1;
 }
 
-/// A picture of every texel: a cube map unfolded, or the picture itself.
+/// A picture of every texel: a cube map unfolded, a volume's slices below each other, or the picture itself.
 template <class Colour>
 Picture laid_out(const Image& image, const Colour& colour) {
     const Level& level = image.levels.front();
-    const bool is_cube = image.faces == 6;
+    const bool is_cube = image.is_cube();
     const int n = level.width;
     static constexpr int kColumns[] = {2, 0, 1, 1, 1, 3}, kRows[] = {1, 1, 0, 2, 1, 1};
-    Picture picture(is_cube ? 4 * n : level.width, is_cube ? 3 * n : level.height);
+    Picture picture(is_cube ? 4 * n : level.width, is_cube ? 3 * n : level.height * image.faces);
     for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = kBackground[i % 3];
     for (int face = 0; face < image.faces; ++face)
         for (int y = 0; y < level.height; ++y)
             for (int x = 0; x < level.width; ++x)
                 colour(face, y, x, picture, x + (is_cube ? kColumns[face] * n : 0),
-                       y + (is_cube ? kRows[face] * n : 0));
+                       y + (is_cube ? kRows[face] * n : face * level.height));
     return picture;
 }
 
@@ -191,7 +192,7 @@ std::string pictures_html(const ProductComparison& product) {
     const int level_a = index_of_size(a.image, b.image.levels[static_cast<std::size_t>(level)]);
     if (level_a < 0 || a.image.faces != b.image.faces) return "";
     const Image of_a = shown_level(a, level_a), of_b = shown_level(b, level);
-    const bool is_light = b.image.faces == 6;
+    const bool is_light = b.image.is_cube();
     const double factor = is_light ? exposure_of(of_b) : 1;
     return "<div class=charts>" +
            image_html(values_picture(of_a, factor), "A, level " + std::to_string(level)) +

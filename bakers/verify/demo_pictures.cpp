@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "bakers/verify/page.hpp"
+#include "pbr/light/colour.hpp"
 
 namespace pbrbake::verify {
 namespace {
@@ -14,15 +15,11 @@ constexpr double kHeroWidthDeg = 100;
 /// Roughness at which the hero's background is read: out of focus, so that the balls stand out.
 constexpr double kBackgroundPerceptualRoughness = 0.12;
 
-const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);  // of linear Rec. 709
-
-double luminance(const glm::dvec3& rgb) { return glm::dot(rgb, kLuminance); }
-
 double mean_luminance(const BakedImage& probe, int level) {
     const std::vector<float>& texels = probe.image.levels[static_cast<std::size_t>(level)].texels;
     double sum = 0;
     for (std::size_t i = 0; i < texels.size(); i += 3)
-        sum += luminance({texels[i], texels[i + 1], texels[i + 2]});
+        sum += pbr::luminance_of_rgb({texels[i], texels[i + 1], texels[i + 2]});
     return sum / (static_cast<double>(texels.size()) / 3) / probe.scale;
 }
 
@@ -114,7 +111,7 @@ Picture difference_ball(const EnvironmentLook& look, const BakedImage& a, const 
     const double mean = mean_luminance(b, level),
                  decades = std::log(kMostDifferenceShown / kLeastDifferenceShown);
     return ball_picture(kBallSize, View(look.camera), [&](const glm::dvec3&, const glm::dvec3& reflected) {
-        const double share = std::abs(luminance(of_a(reflected) - of_b(reflected))) / mean;
+        const double share = std::abs(pbr::luminance_of_rgb(of_a(reflected) - of_b(reflected))) / mean;
         return linear_of_display(
             false_colour(std::log(std::max(share / kLeastDifferenceShown, 1.0)) / decades));
     });

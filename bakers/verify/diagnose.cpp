@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <numbers>
 #include <numeric>
@@ -13,7 +14,6 @@
 #include "bakers/verify/picture.hpp"
 #include "pbr/brdf/roughness.hpp"
 #include "pbr/ibl/cubemap.hpp"
-#include "pbr/ibl/ld.hpp"
 
 namespace pbrbake::verify {
 namespace {
@@ -23,8 +23,6 @@ constexpr int kTurnSide = 16;
 constexpr int kShiftSide = 128;  // of the window in a face's middle that shifts are looked for in
 /// What may be left of a difference for its cause to be named.
 constexpr double kRemainder = 0.3, kRemainderResampled = 0.5;
-
-constexpr std::array<const char*, 6> kFaceNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
 /// A cause, and how much of the difference it leaves.
 struct Suspect {
@@ -59,9 +57,9 @@ class Diagnosis {
         if (differs_[static_cast<std::size_t>(level_)] == 0) return "";
         consider(factor());
         consider(gamma());
-        consider(b_.faces == 6 ? moved_faces() : turned_picture());
+        consider(b_.is_cube() ? moved_faces() : turned_picture());
         consider(shift());
-        consider(b_.faces == 6 ? probe_roughness() : table_roughness());
+        consider(b_.is_cube() ? probe_roughness() : table_roughness());
         return best_.text;
     }
 
@@ -146,7 +144,9 @@ std::string factor_text(double factor) {
                                                                {1 / (4 * kPi), "1/(4 pi)"},
                                                                {683, "683 lm/W"},
                                                                {1 / 683.0, "1/(683 lm/W)"}}};
-    std::string text = "values are " + number(factor) + " times the reference's";
+    std::array<char, 32> digits{};
+    std::snprintf(digits.data(), digits.size(), std::abs(factor - 1) < 0.1 ? "%.4f" : "%.3g", factor);
+    std::string text = std::string("values are ") + digits.data() + " times the reference's";
     for (const auto& [value, name] : named)
         if (std::abs(factor / value - 1) < kNear) return text + " (" + name + ")";
     if (std::abs(factor - 1) < 0.5)
@@ -368,8 +368,7 @@ Suspect Diagnosis::table_roughness() const {
 Suspect Diagnosis::probe_roughness() const {
     constexpr int kLargestSide = 64;  // of levels looked at
     const int levels = static_cast<int>(b_.levels.size());
-    const auto is_power_of_two = [](int n) { return (n & (n - 1)) == 0; };
-    if (levels < 3 || b_.channels.size() != 3 || !is_power_of_two(b_.levels.front().width)) return {};
+    if (levels < 3 || b_.channels.size() != 3) return {};
     const ProbeLookup lookup(b_, 1);
     double there = 0;
     std::array<double, 2> left{};

@@ -1,11 +1,15 @@
 #pragma once
 // One face of a level in memory: what differences are looked for in.
 
+#include <array>
 #include <vector>
 
 #include "bakers/image.hpp"
 
 namespace pbrbake::verify {
+
+/// Of a cube map's faces, in their order.
+inline constexpr std::array<const char*, 6> kFaceNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
 struct Face {
     int width = 0, height = 0, channels = 0;

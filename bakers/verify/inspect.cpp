@@ -14,7 +14,7 @@ namespace {
 
 LevelSummary summarise(const Image& image, int index, double scale) {
     const Level& level = image.levels[static_cast<std::size_t>(index)];
-    const bool is_cube = image.faces == 6;
+    const bool is_cube = image.is_cube();
     const std::vector<double> weight = texel_weights(level, is_cube);
     const std::size_t channels = image.channels.size();
     LevelSummary summary{level.width, level.height, std::vector<ChannelSummary>(channels)};
@@ -48,10 +48,12 @@ Inspection inspect(const fs::path& file) {
     Inspection inspection{product.format,
                           std::string(pixel_name(product.info.pixel)),
                           product.image.faces,
+                          product.image.is_volume,
                           product.image.channels,
                           product.scale,
                           product.units,
                           {},
+                          check_ranges(file, product.record),
                           product.record};
     for (int level = 0; level < static_cast<int>(product.image.levels.size()); ++level)
         inspection.levels.push_back(summarise(product.image, level, inspection.scale));
@@ -69,15 +71,24 @@ Json inspection_json(const Inspection& inspection) {
                          {"max", summary.highest},
                          {"mean", summary.mean},
                          {"non_finite", summary.non_finite}};
-            if (inspection.faces == 6) channel["energy"] = summary.energy;
+            if (inspection.faces == 6 && !inspection.is_volume) channel["energy"] = summary.energy;
             channels.push_back(std::move(channel));
         }
         levels.push_back(
             {{"width", level.width}, {"height", level.height}, {"channels", std::move(channels)}});
     }
-    return {{"format", inspection.format}, {"pixel", inspection.pixel}, {"faces", inspection.faces},
-            {"scale", inspection.scale},   {"units", inspection.units}, {"levels", std::move(levels)},
-            {"record", inspection.record}};
+    Json json{{"format", inspection.format}, {"pixel", inspection.pixel}, {inspection.is_volume ? "depth" : "faces", inspection.faces},
+              {"scale", inspection.scale},   {"units", inspection.units}, {"levels", std::move(levels)}};
+    for (const RangeCheck& check : inspection.ranges)
+        json["ranges"].push_back({{"what", check.what},
+                                  {"lowest", check.lowest},
+                                  {"highest", check.highest},
+                                  {"texels", check.texels},
+                                  {"below", check.below},
+                                  {"above", check.above},
+                                  {"source", check.source}});
+    json["record"] = inspection.record;
+    return json;
 }
 
 }  // namespace pbrbake::verify

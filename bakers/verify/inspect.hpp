@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bakers/baker.hpp"
+#include "bakers/verify/plausible.hpp"
 
 namespace pbrbake::verify {
 
@@ -27,11 +28,13 @@ struct LevelSummary {
 
 struct Inspection {
     std::string format, pixel;
-    int faces = 1;
+    int faces = 1;  ///< of a volume: its slices
+    bool is_volume = false;
     std::vector<std::string> channels;
     double scale = 1;  ///< of the file; the summaries are divided by it
     std::string units;
     std::vector<LevelSummary> levels;
+    std::vector<RangeCheck> ranges;  ///< of a texture set, else none
     Json record;  ///< the product's entry in X.ext.json or manifest.json beside it; null if neither lists it
 };
 

@@ -25,10 +25,9 @@ bool is_product(const fs::path& file) {
 void list_entry(const Json& entry, const fs::path& folder, const fs::path& prefix, const std::string& where,
                 std::vector<ListedFile>& files) {
     try {
-        std::size_t output = 0;
         for (const Json& file : entry.at("outputs")) {
             const std::string path = file.at("path").get<std::string>();
-            files.push_back({(prefix / path).generic_string(), folder / path, entry, output++});
+            files.push_back({(prefix / path).generic_string(), folder / path, entry});
         }
     } catch (const Json::exception&) {
         throw Error(ExitCode::unreadable_input, where, "has an entry without outputs; not a record of ours");
@@ -67,7 +66,7 @@ void list_folder(const fs::path& folder, const fs::path& prefix, std::vector<Lis
         } else if (!has_manifest && is_product(path) && listed.insert(path.filename().string()).second) {
             const Json record = record_of(path);
             if (record.is_null()) {
-                files.push_back({(prefix / path.filename()).generic_string(), path, nullptr, 0});
+                files.push_back({(prefix / path.filename()).generic_string(), path, nullptr});
                 continue;
             }
             std::vector<ListedFile> of_record;
@@ -122,19 +121,28 @@ void take_pairs(std::vector<ListedFile>& a, std::vector<ListedFile>& b, const Ke
     b = std::move(left_b);
 }
 
+/// Which of its bake's files one is: what follows the bake's name, "_normal" or ".material.json"; endings of
+/// pictures don't count. Never empty.
+std::string output_key(const ListedFile& file) {
+    const fs::path path = fs::path(file.name).filename();
+    const std::string extension = path.extension().string();
+    const Format* format = extension.empty() ? nullptr : find_format(extension.substr(1));
+    const std::string text = (format && !format->is_document() ? path.stem() : path).string();
+    const std::string name = file.entry.value("name", std::string());
+    return "#" + (text.starts_with(name) ? text.substr(name.size()) : text);
+}
+
 std::string bake_key(const ListedFile& file) {
     if (!file.entry.is_object() || !file.entry.contains("name")) return "";
-    return fs::path(file.name).parent_path().generic_string() + "/" + job::to_line(file.entry["name"]) + "#" +
-           std::to_string(file.output);
+    return fs::path(file.name).parent_path().generic_string() + "/" + job::to_line(file.entry["name"]) +
+           output_key(file);
 }
 
 std::string recipe_key(const ListedFile& file) {
     if (!file.entry.is_object() || !file.entry.contains("params")) return "";
-    return job::to_line(file.entry.value("kind", Json())) + job::to_line(file.entry["params"]) + "#" +
-           std::to_string(file.output);
+    return job::to_line(file.entry.value("kind", Json())) + job::to_line(file.entry["params"]) +
+           output_key(file);
 }
-
-std::string single_key(const ListedFile& file) { return std::to_string(file.output); }
 
 bool is_record(const std::vector<ListedFile>& files) {
     return !files.empty() && files.front().entry.is_object() &&
@@ -160,7 +168,7 @@ std::vector<Pair> pairs_of(const fs::path& a, const fs::path& b) {
     std::vector<ListedFile> of_a = listing(a), of_b = listing(b);
     std::vector<Pair> pairs;
     const bool two_records = a.extension() == ".json" && is_record(of_a) && is_record(of_b);
-    if (two_records) take_pairs(of_a, of_b, single_key, "", pairs);
+    if (two_records) take_pairs(of_a, of_b, output_key, "", pairs);
     take_pairs(
         of_a, of_b, [](const ListedFile& file) { return file.name; }, "", pairs);
     take_pairs(of_a, of_b, bake_key, "the bake has the same name", pairs);

@@ -14,7 +14,6 @@ struct ListedFile {
     std::string name;  ///< relative to the folder: "probes/room.ktx2"
     std::filesystem::path path;
     Json entry;              ///< its product's record; null without one
-    std::size_t output = 0;  ///< which of the record's outputs
 };
 
 /// Two files, one of which may be missing (an empty path).

@@ -12,7 +12,7 @@
 #include "bakers/verify/page.hpp"
 #include "pbr/brdf/roughness.hpp"
 #include "pbr/camera/exposure.hpp"
-#include "pbr/ibl/ld.hpp"
+#include "pbr/ibl/cubemap.hpp"
 
 namespace pbrbake::verify {
 namespace {
@@ -99,12 +99,60 @@ glm::dvec3 false_colour(double value) {
     return colour;
 }
 
+namespace {
+
+/// The faces of a level, each with a border of one texel copied from its neighbours; at a corner, where three
+/// texels meet, their mean.
+class BorderedFaces {
+  public:
+    explicit BorderedFaces(const Level& level) : n_(level.width), texels_(6 * side() * side()) {
+        for (int face = 0; face < 6; ++face) {
+            for (int y = -1; y <= n_; ++y)
+                for (int x = -1; x <= n_; ++x) {
+                    const pbr::CubeTexel from = pbr::cubemap_texel(
+                        pbr::cube_vector(face, pbr::cube_coordinate(x, n_), pbr::cube_coordinate(y, n_)), n_);
+                    const float* rgb =
+                        &level
+                             .texels[((static_cast<std::size_t>(from.face) * n_ + from.y) * n_ + from.x) * 3];
+                    at(face, x, y) = {rgb[0], rgb[1], rgb[2]};
+                }
+            for (const int x : {-1, n_})
+                for (const int y : {-1, n_}) {
+                    const int inner_x = x < 0 ? 0 : n_ - 1, inner_y = y < 0 ? 0 : n_ - 1;
+                    at(face, x, y) =
+                        (at(face, inner_x, inner_y) + at(face, x, inner_y) + at(face, inner_x, y)) / 3.f;
+                }
+        }
+    }
+
+    glm::dvec3 operator()(const glm::dvec3& direction) const {
+        const pbr::CubePoint point = pbr::cube_point(direction);
+        const double x = (point.s + 1) / 2 * n_ - 0.5, y = (point.t + 1) / 2 * n_ - 0.5;
+        const int x0 = std::clamp(static_cast<int>(std::floor(x)), -1, n_ - 1),
+                  y0 = std::clamp(static_cast<int>(std::floor(y)), -1, n_ - 1);
+        const auto value = [&](int i, int j) { return glm::dvec3(at(point.face, x0 + i, y0 + j)); };
+        return glm::mix(glm::mix(value(0, 0), value(1, 0), x - x0),
+                        glm::mix(value(0, 1), value(1, 1), x - x0), y - y0);
+    }
+
+  private:
+    std::size_t side() const { return static_cast<std::size_t>(n_) + 2; }
+    std::size_t index(int face, int x, int y) const {
+        return (static_cast<std::size_t>(face) * side() + static_cast<std::size_t>(y + 1)) * side() +
+               static_cast<std::size_t>(x + 1);
+    }
+    const glm::vec3& at(int face, int x, int y) const { return texels_[index(face, x, y)]; }
+    glm::vec3& at(int face, int x, int y) { return texels_[index(face, x, y)]; }
+
+    int n_;
+    std::vector<glm::vec3> texels_;
+};
+
+}  // namespace
+
 Radiance radiance_of_level(const Image& cube, int level, double scale) {
-    const Level& texels = cube.levels[static_cast<std::size_t>(level)];
-    const auto pyramid = std::make_shared<pbr::CubePyramid>(texels.texels, texels.width);
-    return [pyramid, scale](const glm::dvec3& direction) {
-        return glm::dvec3(pyramid->sample(glm::vec3(direction), 0)) / scale;
-    };
+    const auto faces = std::make_shared<BorderedFaces>(cube.levels[static_cast<std::size_t>(level)]);
+    return [faces, scale](const glm::dvec3& direction) { return (*faces)(direction) / scale; };
 }
 
 ProbeLookup::ProbeLookup(const Image& cube, double scale) {

@@ -50,8 +50,8 @@ glm::dvec3 false_colour(double value);
 /// Radiance seen in a direction (unit vector).
 using Radiance = std::function<glm::dvec3(const glm::dvec3& direction)>;
 
-/// One level of a cube map, bilinear and seamless across edges; values divided by `scale`. Sizes are powers
-/// of two.
+/// One level of an RGB cube map of any size as a shader reads it: bilinear and seamless across edges; values
+/// divided by `scale`.
 Radiance radiance_of_level(const Image& cube, int level, double scale);
 
 /// Between levels as a shader's trilinear lookup reads it: level = (levels - 1) * perceptual_roughness.

@@ -42,6 +42,32 @@ std::string stated(const ProductFile& file, const char* name) {
     return value.is_string() ? value.get<std::string>() : value.is_number() ? job::to_line(value) : "";
 }
 
+/// The record of a bake's other files, "crate_normal.png" or "crate.material.json", beside its main file:
+/// "crate.png.json".
+Json record_of_main_file(const fs::path& file) {
+    const std::string name = file.filename().string();
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(fs::absolute(file).parent_path(), error)) {
+        const fs::path main = entry.path().stem();  // of "crate.png.json"
+        if (entry.path().extension() != ".json" || !main.has_extension() ||
+            !name.starts_with(main.stem().string()))
+            continue;
+        if (Json record = document_beside(entry.path()); lists(record, name)) return record;
+    }
+    return nullptr;
+}
+
+/// Containers of four channels hold a probe's three and an alpha of 1.
+void drop_padding(Image& image) {
+    image.channels.resize(3);
+    for (Level& level : image.levels) {
+        std::size_t to = 0;
+        for (std::size_t from = 0; from < level.texels.size(); ++from)
+            if (from % 4 != 3) level.texels[to++] = level.texels[from];
+        level.texels.resize(to);
+    }
+}
+
 }  // namespace
 
 Json record_of(const fs::path& file) {
@@ -51,7 +77,7 @@ Json record_of(const fs::path& file) {
     if (manifest.is_object() && manifest.contains("products") && manifest["products"].is_array())
         for (const Json& entry : manifest["products"])
             if (lists(entry, name)) return entry;
-    return nullptr;
+    return record_of_main_file(file);
 }
 
 ProductFile read_product_file(const fs::path& file) { return read_product_file(file, record_of(file)); }
@@ -64,6 +90,7 @@ ProductFile read_product_file(const fs::path& file, Json record) {
     product.image = std::move(read.image);
     product.record = std::move(record);
     product.kind = stated(product, "kind");
+    if (product.kind == "probe" && product.image.channels.size() == 4) drop_padding(product.image);
     if (const std::string scale = stated(product, "scale"); !scale.empty()) product.scale = scale_of(scale);
     if (const std::string units = stated(product, "units"); !units.empty()) product.units = units;
     return product;

@@ -7,6 +7,7 @@
 #include "bakers/workers.hpp"
 #include "pbr/ibl/dominant_direction.hpp"
 #include "pbr/ibl/split_sum.hpp"
+#include "pbr/light/colour.hpp"
 #include "pbr/numerics/frame.hpp"
 #include "pbr/reference/reflected_texels.hpp"
 
@@ -14,7 +15,6 @@ namespace pbrbake::verify {
 namespace {
 
 constexpr double kTolerance = 1e-3;
-const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);  // of linear Rec. 709
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -111,8 +111,8 @@ std::vector<ShadingError> shading_errors(const LinearPicture& picture, const Lin
         int points = 0;
         for (std::size_t i = 0; i < scene.points.size(); ++i) {
             if (!scene.points[i] || scene.points[i]->NoV() < low || scene.points[i]->NoV() >= high) continue;
-            const double truth = glm::dot(exact.rgb[i], kLuminance),
-                         difference = glm::dot(picture.rgb[i], kLuminance) - truth;
+            const double truth = pbr::luminance_of_rgb(exact.rgb[i]),
+                         difference = pbr::luminance_of_rgb(picture.rgb[i]) - truth;
             squared += difference * difference;
             error += difference;
             sum += truth;

@@ -9,6 +9,7 @@
 #include "bakers/verify/picture.hpp"
 #include "pbr/brdf/roughness.hpp"
 #include "pbr/ibl/dfg.hpp"
+#include "pbr/light/colour.hpp"
 
 namespace pbrbake::verify {
 namespace {
@@ -20,7 +21,6 @@ constexpr double kLeastDifference = 1e-3, kMostDifference = 1;
 constexpr std::array<std::uint8_t, 3> kAround{128, 128, 128};
 
 const glm::dvec3 kAluminium(0.91, 0.92, 0.92);
-const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
 
 glm::dvec3 rgb_of(const BakedImage& baked, int level, std::size_t texel) {
     const float* value = baked.image.levels[static_cast<std::size_t>(level)].texels.data() +
@@ -46,7 +46,7 @@ double exposure_of(const BakedImage& cube, int level) {
     double sum = 0;
     const std::size_t texels = texels_of(cube, level);
     for (std::size_t i = 0; i < texels; ++i)
-        sum += std::log(std::max(kBlack, glm::dot(rgb_of(cube, level, i), kLuminance)));
+        sum += std::log(std::max(kBlack, pbr::luminance_of_rgb(rgb_of(cube, level, i))));
     return kMiddleGrey / std::exp(sum / static_cast<double>(texels));
 }
 
@@ -55,15 +55,15 @@ Image difference_cube(const BakedImage& a, const BakedImage& b, int level) {
     const std::size_t texels = texels_of(b, level);
     double mean = 0;
     for (std::size_t i = 0; i < texels; ++i)
-        mean += glm::dot(rgb_of(b, level, i), kLuminance) / static_cast<double>(texels);
+        mean += pbr::luminance_of_rgb(rgb_of(b, level, i)) / static_cast<double>(texels);
     Image cube;
     cube.channels = {"R", "G", "B"};
     cube.faces = 6;
     const Level& like = b.image.levels[static_cast<std::size_t>(level)];
     cube.levels.push_back({like.width, like.height, std::vector<float>(texels * 3)});
     for (std::size_t i = 0; i < texels; ++i) {
-        const double share =
-            std::abs(glm::dot(rgb_of(a, level, i) - rgb_of(b, level, i), kLuminance)) / std::max(mean, 1e-30);
+        const double share = std::abs(pbr::luminance_of_rgb(rgb_of(a, level, i) - rgb_of(b, level, i))) /
+                             std::max(mean, 1e-30);
         const double at = std::log(std::max(share / kLeastDifference, 1e-30)) /
                           std::log(kMostDifference / kLeastDifference);
         const glm::dvec3 colour = linear_of_display(false_colour(at));
@@ -144,7 +144,7 @@ void PictureBook::take(const StudiedCase& studied, const StudyPoint& point, cons
     const std::size_t index = studied.points.size() - 1;
     if (!is_shown(step_of(studied, index), studied.asked.series[point.series].steps.size())) return;
     const Key key{studied.asked.name, index};
-    if (product.image.faces == 6 && reference) {
+    if (product.image.is_cube() && reference) {
         const int level = shown_level(reference->image);
         const double exposure = exposure_of(*reference, level);
         keep(key, {{image(cross_picture(product.image, level, exposure / product.scale, kAround), 2,

@@ -1,6 +1,5 @@
 #include "pbr/ibl/dfg.hpp"
 
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -8,22 +7,14 @@
 #include "pbr/brdf/fresnel.hpp"
 #include "pbr/brdf/ggx_sampling.hpp"
 #include "pbr/numerics/sequence.hpp"
+#include "src/ibl/dfg_rules.hpp"
 #include "src/simd/dfg_kernel.hpp"
 
 namespace pbr {
 namespace {
 
-/// Node counts of each band and the largest error they leave, found over alpha in [1e-8, 1] and every view,
-/// and held by tests/libpbr/ibl/dfg_test.cpp.
-struct RuleSize {
-    double max_error;
-    struct Nodes {
-        int azimuth, radial;
-    };
-    std::array<Nodes, 4> bands;
-};
-constexpr std::array kLowestNoV{0.0, 0.01, 0.1, 0.4};
-constexpr RuleSize kRuleSizes[] = {
+/// Found over alpha in [1e-8, 1] and every view, and held by tests/libpbr/ibl/dfg_test.cpp.
+constexpr DfgRuleSize kRuleSizes[] = {
     {1e-2, {{{12, 18}, {8, 12}, {6, 12}, {6, 12}}}},    {1e-3, {{{14, 24}, {10, 16}, {8, 16}, {6, 12}}}},
     {1e-4, {{{18, 28}, {14, 20}, {10, 20}, {6, 20}}}},  {1e-5, {{{22, 30}, {16, 24}, {12, 20}, {8, 20}}}},
     {1e-6, {{{26, 38}, {20, 26}, {14, 26}, {10, 26}}}}, {1e-7, {{{30, 46}, {22, 32}, {16, 32}, {12, 38}}}},
@@ -62,13 +53,7 @@ const DfgRule::Band& DfgRule::band_of(double NoV) const {
 
 DfgRule dfg_rule(double max_error) {
     assert(max_error > 0);
-    const RuleSize* size = std::begin(kRuleSizes);
-    while (size + 1 != std::end(kRuleSizes) && size->max_error > max_error) ++size;
-    DfgRule rule{{}, size->max_error};
-    for (std::size_t i = 0; i < rule.bands.size(); ++i)
-        rule.bands[i] = {kLowestNoV[i], gauss_legendre(size->bands[i].azimuth),
-                         gauss_legendre(size->bands[i].radial)};
-    return rule;
+    return dfg_rule_of(kRuleSizes, max_error);
 }
 
 void dfg_ggx_row(std::span<const double> NoV, double alpha, const DfgMethod& method, std::span<double> E,

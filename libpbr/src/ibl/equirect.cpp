@@ -130,14 +130,9 @@ class AreaIntegral {
         if (to - from < 1e-15) return;
         // The piece's middle tells the column; u = 1/2 - longitude / 2 pi.
         const double u = 0.5 - (from + to) / (4 * kPi);
-        const int column =
-            std::clamp(static_cast<int>((u - std::floor(u)) * source_.width), 0, source_.width - 1);
-        static const QuadratureRule rule = gauss_legendre(3);
-        for (int i = 0; i < rule.size(); ++i) {
-            const SinCos longitude = sin_cos_pi((from + (to - from) * rule.nodes[i]) / kPi);
-            const MeridianSpan span = quad.span(longitude.sin, longitude.cos);
-            if (span.low < span.high) add_span(column, span, rule.weights[i] * (to - from));
-        }
+        column_ = std::clamp(static_cast<int>((u - std::floor(u)) * source_.width), 0, source_.width - 1);
+        constexpr int kHalvings = 7;
+        add_halved(quad, from, to, kHalvings);
     }
 
     void mean(float* rgb) const {
@@ -145,13 +140,44 @@ class AreaIntegral {
     }
 
   private:
-    void add_span(int column, const MeridianSpan& span, double weight) {
+    /// Rows in which a span begins and ends.
+    struct Ends {
+        int first, last;
+        bool operator==(const Ends&) const = default;
+    };
+    Ends ends(const MeridianSpan& span) const { return {rows_.row(span.high), rows_.row(span.low)}; }
+
+    /// Where an edge of the texel crosses from row to row the integrand has a kink: pieces are halved until
+    /// they have none, or what it can still do is small.
+    void add_halved(const TexelQuad& quad, double from, double to, int halvings) {
+        static const QuadratureRule rule = gauss_legendre(3);
+        std::array<MeridianSpan, 3> spans;
+        const auto span_at = [&](double share) {
+            const SinCos longitude = sin_cos_pi((from + (to - from) * share) / kPi);
+            return quad.span(longitude.sin, longitude.cos);
+        };
+        for (std::size_t i = 0; i < 3; ++i) spans[i] = span_at(rule.nodes[i]);
+        if (halvings > 0) {
+            constexpr double kInside = 1e-3;  // at a corner itself the span is empty
+            const Ends first = ends(span_at(kInside)), last = ends(span_at(1 - kInside));
+            if (first != last || ends(spans[1]) != first) {
+                const double middle = (from + to) / 2;
+                add_halved(quad, from, middle, halvings - 1);
+                add_halved(quad, middle, to, halvings - 1);
+                return;
+            }
+        }
+        for (std::size_t i = 0; i < 3; ++i)
+            if (spans[i].low < spans[i].high) add_span(spans[i], rule.weights[i] * (to - from));
+    }
+
+    void add_span(const MeridianSpan& span, double weight) {
         const int last = rows_.row(span.low);
         for (int row = rows_.row(span.high); row <= last; ++row) {
             const double top = std::min(span.high, rows_.cosine(row));
             const double bottom = std::max(span.low, rows_.cosine(row + 1));
             const double area = weight * std::max(0.0, top - bottom);
-            const float* texel = source_.texel(column, row);
+            const float* texel = source_.texel(column_, row);
             for (int c = 0; c < 3; ++c) sum_[c] += area * static_cast<double>(texel[c]);
             solid_angle_ += area;
         }
@@ -159,6 +185,7 @@ class AreaIntegral {
 
     const EquirectView& source_;
     const RowTable& rows_;
+    int column_ = 0;
     double sum_[3] = {0, 0, 0};
     double solid_angle_ = 0;
 };
@@ -179,10 +206,11 @@ double equirect_texel_solid_angle(int width, int height, int y) {
     return 4 * kPi / width * sin_cos_pi((y + 0.5) / height).sin * sin_cos_pi(0.5 / height).sin;
 }
 
-void resample_area(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out) {
+void resample_area(const EquirectView& source, int size, std::span<const CubeTexel> texels,
+                   std::span<float> rgb_out) {
     const RowTable rows(source.height);
-    for (int x = 0; x < size; ++x) {
-        const TexelQuad quad(source, size, face, x, y);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const TexelQuad quad(source, size, texels[i].face, texels[i].x, texels[i].y);
         const std::span<const double> breaks = quad.longitudes();
         AreaIntegral integral(source, rows);
         for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
@@ -198,8 +226,14 @@ void resample_area(const EquirectView& source, int size, int face, int y, std::s
             }
             integral.add(quad, from, breaks[k + 1]);
         }
-        integral.mean(&rgb_out[static_cast<std::size_t>(x) * 3]);
+        integral.mean(&rgb_out[i * 3]);
     }
+}
+
+void resample_area(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out) {
+    std::vector<CubeTexel> texels;
+    for (int x = 0; x < size; ++x) texels.push_back({face, x, y});
+    resample_area(source, size, texels, rgb_out);
 }
 
 void resample_bilinear(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out) {

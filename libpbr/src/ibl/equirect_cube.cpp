@@ -1,10 +1,5 @@
 // A whole cube map from an equirect, faster than texel by texel where the picture's axis is one of the
-// cube's.
-//
-// Quarter turns about the axis then take columns to columns, if their number is a multiple of four, and the
-// mirror image in the equator takes rows to rows. So all four faces beside the axis, north and south, share
-// the weights of one half of a face, and the quadrants of both faces that the axis pierces those of one
-// quadrant: weights are found once and used eight times.
+// cube's: eight images of one pattern (src/ibl/cube_images.hpp).
 
 #include <algorithm>
 #include <array>
@@ -12,122 +7,29 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/quadrature.hpp"
+#include "src/ibl/cube_images.hpp"
+#include "src/ibl/resample_bright.hpp"
 
 namespace pbr {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kImages = 8;  ///< copies that share their weights
-
-/// Where the pattern of weights is used: texel (i, j) of the pattern is a texel of the cube, columns and rows
-/// of the picture are counted from `column` on and from the north or the south pole.
-struct Image {
-    int column;
-    bool south;
-    long origin, step_i, step_j;  ///< in the cube, texels
-};
-using Images = std::vector<Image>;
-
-/// How the cube's faces lie about the picture's axis.
-struct Faces {
-    Images beside, pierced;
-    double phase = 0;  ///< of a column's width, from its first edge to a face's middle
-
-    /// Nothing if the axis isn't one of the cube's, or quarter turns don't take columns to columns.
-    static std::optional<Faces> of(const EquirectView& source, int size);
-
-  private:
-    int column_of(const EquirectView& source, const glm::dvec3& direction) {
-        const double at = equirect_point(direction).x * source.width;
-        if (beside.empty() && pierced.empty()) phase = at - std::floor(at);
-        return static_cast<int>(std::lround(at - phase));
-    }
-    void add_beside(const EquirectView& source, int size, int face);
-    void add_pierced(const EquirectView& source, int size, int face);
-};
-
-struct FaceVectors {
-    glm::dvec3 normal, s, t;  ///< in the picture's frame
-};
-
-FaceVectors face_vectors(const EquirectView& source, int face) {
-    const glm::dvec3 normal = source.world_to_source * cube_vector(face, 0, 0);
-    return {normal, source.world_to_source * cube_vector(face, 1, 0) - normal,
-            source.world_to_source * cube_vector(face, 0, 1) - normal};
-}
-
-/// True if columns grow from p towards q, which is square to it: u falls with longitude.
-bool is_eastward(const glm::dvec3& p, const glm::dvec3& q) { return q.x * p.z - q.z * p.x < 0; }
-
-std::optional<Faces> Faces::of(const EquirectView& source, int size) {
-    constexpr int kFewestColumns = 64;  // the series of add_wedge are good for their width
-    const auto is_zero = [](double x) { return std::abs(x) < 1e-12; };
-    if (source.width % 4 != 0 || source.width < kFewestColumns) return std::nullopt;
-    Faces faces;
-    for (int face = 0; face < 6; ++face) {
-        const FaceVectors v = face_vectors(source, face);
-        if (is_zero(v.normal.x) && is_zero(v.normal.z))
-            faces.add_pierced(source, size, face);
-        else if (is_zero(v.normal.y) && (is_zero(v.s.y) || is_zero(v.t.y)))
-            faces.add_beside(source, size, face);
-        else
-            return std::nullopt;
-    }
-    return faces;
-}
-
-void Faces::add_beside(const EquirectView& source, int size, int face) {
-    const FaceVectors v = face_vectors(source, face);
-    const bool across_is_s = std::abs(v.s.y) < 1e-12;
-    const glm::dvec3 &across = across_is_s ? v.s : v.t, &up = across_is_s ? v.t : v.s;
-    const long of_i = across_is_s ? 1 : size, of_j = across_is_s ? size : 1;
-    const bool eastward = is_eastward(v.normal, across);
-    const int column = column_of(source, v.normal);
-    for (const bool south : {false, true}) {
-        const bool upward = (up.y > 0) != south;
-        const int first = upward ? size / 2 : size - 1 - size / 2;  // of j
-        beside.push_back({column, south,
-                          static_cast<long>(face) * size * size + first * of_j +
-                              (eastward ? 0 : static_cast<long>(size - 1) * of_i),
-                          eastward ? of_i : -of_i, upward ? of_j : -of_j});
-    }
-}
-
-void Faces::add_pierced(const EquirectView& source, int size, int face) {
-    const FaceVectors v = face_vectors(source, face);
-    struct Axis {
-        glm::dvec3 direction;
-        long x, y;  ///< in texels
-    };
-    std::array<Axis, 4> axes{Axis{v.s, 1, 0}, {v.t, 0, 1}, {-v.s, -1, 0}, {-v.t, 0, -1}};
-    if (!is_eastward(v.s, v.t)) std::swap(axes[1], axes[3]);
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Axis &a = axes[k], &b = axes[(k + 1) % 4];
-        // Texel (0, 0) lies beside the middle towards both axes.
-        const long x = (size - 1 + a.x + b.x) / 2, y = (size - 1 + a.y + b.y) / 2;
-        pierced.push_back({column_of(source, a.direction), v.normal.y < 0,
-                           (static_cast<long>(face) * size + y) * size + x, a.y * size + a.x,
-                           b.y * size + b.x});
-    }
-}
-
 /// Sums over one texel of the pattern, in all its images.
 struct Sums {
-    double flux[kImages][3] = {}, area = 0;
+    double flux[kCubeImages][3] = {}, area = 0;
 
     /// Adds texels of a column of the picture, from `row` towards the equator.
-    void add(const EquirectView& source, const Images& images, int column, int row,
+    void add(const EquirectView& source, const CubeImages& images, int column, int row,
              const std::vector<double>& weights) {
         for (const double weight : weights) area += weight;
         const long count = static_cast<long>(weights.size());
-        for (std::size_t image = 0; image < kImages; ++image) {
+        for (std::size_t image = 0; image < kCubeImages; ++image) {
             int x = images[image].column + column;
             x = x < 0 ? x + source.width : x >= source.width ? x - source.width : x;
             const bool south = images[image].south;
@@ -144,9 +46,9 @@ struct Sums {
         }
     }
 
-    void write_means(const Images& images, int i, int j, std::span<float> rgb_out) const {
-        for (std::size_t image = 0; image < kImages; ++image) {
-            const Image& at = images[image];
+    void write_means(const CubeImages& images, int i, int j, std::span<float> rgb_out) const {
+        for (std::size_t image = 0; image < kCubeImages; ++image) {
+            const CubeImage& at = images[image];
             const auto texel = static_cast<std::size_t>(at.origin + i * at.step_i + j * at.step_j);
             for (std::size_t c = 0; c < 3; ++c)
                 rgb_out[texel * 3 + c] = static_cast<float>(flux[image][c] / area);
@@ -157,7 +59,7 @@ struct Sums {
 /// The picture, its rows, and the phase of its columns against the pattern's.
 struct Pattern {
     const EquirectView& source;
-    const Images& images;
+    const CubeImages& images;
     double phase;
     int size;
     const std::vector<double>& row_cosines;  ///< between rows, falling
@@ -360,7 +262,7 @@ class PiercedQuadrant {
 };
 
 /// Rows that the patterns leave out: those of pierced faces whose middle lies in a texel.
-void fill_pierced_rows(const EquirectView& source, int size, const Images& pierced, const ForEach& each,
+void fill_pierced_rows(const EquirectView& source, int size, const CubeImages& pierced, const ForEach& each,
                        std::span<float> rgb_out) {
     const std::size_t stride = static_cast<std::size_t>(size) * 3;
     each(2 * size, [&](int k) {
@@ -375,7 +277,7 @@ void fill_pierced_rows(const EquirectView& source, int size, const Images& pierc
 
 void resample_area(const EquirectView& source, int size, const ForEach& each, std::span<float> rgb_out) {
     const std::size_t stride = static_cast<std::size_t>(size) * 3;
-    const std::optional<Faces> faces = Faces::of(source, size);
+    const std::optional<CubeFaces> faces = CubeFaces::of(source, size);
     if (!faces)
         return each(6 * size, [&](int row) {
             resample_area(source, size, row / size, row % size,
@@ -396,6 +298,7 @@ void resample_area(const EquirectView& source, int size, const ForEach& each, st
         BesideStrip(beside, task * kStrip, std::min(half, (task + 1) * kStrip)).fill(rgb_out);
     });
     if (!even) fill_pierced_rows(source, size, faces->pierced, each, rgb_out);
+    resample_bright_texels(source, size, each, rgb_out);
 }
 
 }  // namespace pbr

@@ -135,15 +135,15 @@ RowPoints row_points(int height, int points) {
 }  // namespace
 
 int points_a_row(int height, double alpha, double max_error) {
-    // A Gauss rule of n points acts on degree l as the exact mean over a row of height h up to (l h)^(2n)
-    // n!^4 /
-    // ((2n + 1) (2n)!^3), and k_l = x K1(x), x = 2 alpha l, weights it: x^(2n+1) K1(x) is at most 1.16, 11
-    // and 260 for n = 1, 2, 3. Rows wider than the lobe need a point for every two radians of l h, and k_l is
-    // 1e-5 at x = 13.
+    // A Gauss rule of n points acts on degree l as the exact mean over a row of height h up to
+    //   (l h)^(2n) n!^4 / ((2n + 1) (2n)!^3),
+    // and k_l = x K1(x), x = 2 alpha l, weights it: x^(2n+1) K1(x) is at most 1.16, 11 and 260 for n = 1,
+    // 2, 3. Rows wider than the lobe need a point for every two radians of l h, and k_l is 1e-5 at x = 13.
     const double reach = kPi / height / (2 * alpha), allowed = max_error / 10;
     if (1.16 * reach * reach / 24 < allowed) return 1;
-    if (11 * std::pow(reach, 4) / 4320 < allowed) return 2;
-    if (260 * std::pow(reach, 6) * 5e-7 < allowed) return 3;
+    const double reach2 = reach * reach;
+    if (11 * reach2 * reach2 / 4320 < allowed) return 2;
+    if (260 * reach2 * reach2 * reach2 * 5e-7 < allowed) return 3;
     return std::max(4, static_cast<int>(std::ceil(6.5 * reach)) + 2);
 }
 
@@ -227,11 +227,14 @@ std::span<const double> HarmonicSpectrum::of_order(int order) const {
     return {&coefficients_[start(order)], static_cast<std::size_t>(bands_ - order + 1) * kParts};
 }
 
-double HarmonicSpectrum::power(int degree) const {
-    double sum = 0;
-    for (int m = 0; m <= degree; ++m)
-        for (const double part : coefficient(degree, m)) sum += (m == 0 ? 1 : 2) * part * part;
-    return sum;
+std::vector<double> HarmonicSpectrum::powers() const {
+    std::vector<double> result(static_cast<std::size_t>(bands_) + 1);
+    for (int m = 0; m <= bands_; ++m) {  // as they lie in memory
+        const std::span<const double> parts = of_order(m);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            result[static_cast<std::size_t>(m) + i / kParts] += (m == 0 ? 1 : 2) * parts[i] * parts[i];
+    }
+    return result;
 }
 
 HarmonicGrid::HarmonicGrid(const HarmonicSpectrum& spectrum, std::span<const double> kernel,

@@ -123,6 +123,7 @@ void LdHarmonic::prepare(const View& source, int rows, double smallest_alpha, in
     const int wanted = bands_for(smallest_alpha, max_error_), bands = std::min(wanted, most_bands);
     const double narrowest = smallest_alpha * wanted / bands;  // of the lobes left to harmonics
     spectrum_.emplace(source, bands, points_a_row(rows, narrowest, max_error_), each, bright_);
+    powers_ = spectrum_->powers();
 }
 
 glm::dvec3 LdHarmonic::mean() const {
@@ -133,7 +134,7 @@ glm::dvec3 LdHarmonic::mean() const {
 int LdHarmonic::bands_for(double alpha, double max_error) {
     const double digits = std::clamp(-log2_exact(max_error) / log2_exact(10), 1.0, 6.0);
     const double for_the_peak = (1.7 + 1.2 * digits) / alpha;
-    const double for_the_kink = 32 * std::pow(2.0, digits - 1);
+    const double for_the_kink = 32 * exp_exact((digits - 1) * std::numbers::ln2);
     return static_cast<int>(std::ceil(std::max(for_the_peak, for_the_kink)));
 }
 
@@ -165,7 +166,7 @@ int LdHarmonic::Level::band_limit(const LdHarmonic& of, std::span<const double> 
     int bands = of.bands();
     for (; bands > 0; --bands) {
         const double k = kernel[static_cast<std::size_t>(bands)];
-        const double more = lost + k * k * of.spectrum_->power(bands);
+        const double more = lost + k * k * of.powers_[static_cast<std::size_t>(bands)];
         if (more > allowed) break;
         lost = more;
     }

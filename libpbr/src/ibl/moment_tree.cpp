@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "pbr/ibl/spherical_harmonics.hpp"
+#include "pbr/numerics/elementary.hpp"
+#include "pbr/numerics/quadrature.hpp"
 #include "src/simd/patch_kernel.hpp"
 
 namespace pbr {
@@ -223,38 +225,42 @@ MomentCone MomentTree::cone(const glm::dvec3& centre, double solid_angle, int le
 }
 
 std::vector<glm::dvec3> sh_project(const MomentTree& source, int bands) {
-    constexpr double kStep = 1.0 / 1024;  // of differences that stand for derivatives: Y are polynomials
-    const std::size_t count = static_cast<std::size_t>(sh_count(bands));
-    std::vector<glm::dvec3> coefficients(count, glm::dvec3(0));
-    std::array<std::vector<double>, 10> basis;  // at the centre, then at +-x, +-y, +-z, +x+y, +x+z, +y+z
-    for (std::vector<double>& values : basis) values.resize(count);
-    const std::array<glm::dvec3, 10> offsets{glm::dvec3(0), {1, 0, 0},  {-1, 0, 0}, {0, 1, 0}, {0, -1, 0},
-                                             {0, 0, 1},     {0, 0, -1}, {1, 1, 0},  {1, 0, 1}, {0, 1, 1}};
-    const MomentTree::Level& leaves = source.level(0);
-    for (std::size_t leaf = 0; leaf < leaves.cones.size(); ++leaf) {
-        for (std::size_t k = 0; k < 10; ++k)
-            sh_evaluate<double>(bands, leaves.cones[leaf].centre() + kStep * offsets[k], basis[k]);
-        for (std::size_t i = 0; i < count; ++i) {
-            std::array<double, 10> derivative{basis[0][i]};
-            for (std::size_t a = 0; a < 3; ++a) {
-                derivative[a + 1] = (basis[2 * a + 1][i] - basis[2 * a + 2][i]) / (2 * kStep);
-                derivative[a + 4] =
-                    (basis[2 * a + 1][i] - 2 * basis[0][i] + basis[2 * a + 2][i]) / (kStep * kStep);
+    assert(bands >= 1 && bands <= kMomentBands);
+    const MomentTree::Level& roots = source.level(source.levels() - 1);
+    PatchMoments moments{};  // about the sphere's centre
+    for (std::size_t i = 0; i < roots.cones.size(); ++i)
+        add_shifted(whole_moments(roots.moments[i]), roots.cones[i].centre(),
+                    static_cast<double>(roots.cones[i].solid_angle), moments);
+    // The picture's bands at n are its sum with (2 l + 1) P_l(n.d) / (4 pi), a polynomial of n.d; the rule's
+    // points are exact for it times Y, of degree 6 together.
+    constexpr int kRows = 4, kColumns = 8;
+    const QuadratureRule rule = gauss_legendre(kRows);
+    std::vector<glm::dvec3> coefficients(static_cast<std::size_t>(sh_count(bands)), glm::dvec3(0));
+    std::vector<double> basis(coefficients.size());
+    for (int row = 0; row < kRows; ++row)
+        for (int column = 0; column < kColumns; ++column) {
+            const double z = 2 * rule.nodes[row] - 1, sine = std::sqrt((1 - z) * (1 + z));
+            const SinCos turn = sin_cos_pi(2.0 * column / kColumns);
+            const glm::dvec3 n(sine * turn.cos, sine * turn.sin, z);
+            std::array<glm::dvec3, kMomentBands> sums{};  // of radiance times (n.d)^j
+            const std::array<double, kCount> powers = powers_of(n);
+            for (std::size_t k = 0; k < kCount; ++k) {
+                const int degree = kMonomials[k].a + kMonomials[k].b + kMonomials[k].c;
+                sums[static_cast<std::size_t>(degree)] +=
+                    factorial(degree) / kFactorials[k] * powers[k] *
+                    glm::dvec3(moments[k][0], moments[k][1], moments[k][2]);
             }
-            for (std::size_t pair = 0; pair < 3; ++pair) {
-                const std::size_t a = pair == 2 ? 1 : 0, b = pair == 0 ? 1 : 2;
-                derivative[pair + 7] =
-                    (basis[pair + 7][i] - basis[2 * a + 1][i] - basis[2 * b + 1][i] + basis[0][i]) /
-                    (kStep * kStep);
-            }
-            for (int c = 0; c < 3; ++c) {
-                double sum = 0;
-                for (std::size_t k = 0; k < 10; ++k)
-                    sum += derivative[k] * static_cast<double>(leaves.moments[leaf].mean[k][c]);
-                coefficients[i][c] += static_cast<double>(leaves.cones[leaf].solid_angle) * sum;
-            }
+            const std::array<glm::dvec3, kMomentBands> of_band{sums[0], 3.0 * sums[1],
+                                                               2.5 * (3.0 * sums[2] - sums[0]),
+                                                               3.5 * (5.0 * sums[3] - 3.0 * sums[1])};
+            // The rule's weights sum to 1 over z: 4 pi of solid angle and 1 / (4 pi) of the kernel cancel.
+            const double weight = rule.weights[row] / kColumns;
+            sh_evaluate<double>(bands, n, basis);
+            for (int l = 0; l < bands; ++l)
+                for (int i = l * l; i < (l + 1) * (l + 1); ++i)
+                    coefficients[static_cast<std::size_t>(i)] +=
+                        weight * basis[static_cast<std::size_t>(i)] * of_band[static_cast<std::size_t>(l)];
         }
-    }
     return coefficients;
 }
 

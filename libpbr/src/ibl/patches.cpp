@@ -16,7 +16,7 @@ namespace {
 
 /// Texels a side of a block: small ones let far fields come near, but a tree over too many costs more than it
 /// spares.
-int block_side(double texels) { return texels <= 0x1p18 ? 4 : texels <= 0x1p24 ? 8 : 16; }
+int block_side(double texels) { return texels <= 0x1p18 ? 4 : texels <= 0x1p20 ? 8 : 16; }
 
 double texel_angle_of(const EquirectView& source) {
     return std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height);

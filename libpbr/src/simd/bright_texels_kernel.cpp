@@ -13,6 +13,7 @@
 
 #include "pbr/ibl/bright_texels.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
+#include "src/simd/ld_kernels.hpp"
 
 namespace pbr {
 #ifndef PBR_BRIGHT_TEXELS_GROUP_
@@ -84,19 +85,6 @@ namespace pbr {
 namespace {
 
 HWY_EXPORT(add_points);
-
-/// Points a texel needs: Gauss-Legendre over a texel of angle h converges once h is well below the distance
-/// of the kernel's poles, which is about hypot(2 alpha, angle).
-int order_index(double texel_angle, double alpha, double nearest) {
-    const double reach = texel_angle / std::sqrt(4 * alpha * alpha + nearest * nearest);
-    if (reach < 0.02) return 0;
-    const double wanted = 1.5 + 4 * reach;
-    int index = 1;
-    while (index + 1 < static_cast<int>(std::size(PatchBlocks::kOrders)) &&
-           PatchBlocks::kOrders[index] < wanted)
-        ++index;
-    return index;
-}
 
 /// A mean direction, and the largest distance from it.
 struct Bundle {
@@ -181,13 +169,13 @@ std::uint64_t BrightTexels::integrate(double alpha, std::span<const glm::dvec3> 
         for (int texel = 0; texel < texels_.count(); ++texel) {
             const Cone& cone = texels_.cone(texel);
             const bool unseen = together.is_above(cone);
-            if (!unseen && order_index(texels_.texel_angle(), alpha, together.nearest(cone)) == 0) {
+            if (!unseen && ld_order_index(texels_.texel_angle(), alpha, together.nearest(cone)) == 0) {
                 ++run;
                 continue;
             }
             finish_run(texel);
             for (std::size_t g = 0; g < groups.size() && !unseen; ++g) {
-                const int index = order_index(texels_.texel_angle(), alpha, bundles[g].nearest(cone));
+                const int index = ld_order_index(texels_.texel_angle(), alpha, bundles[g].nearest(cone));
                 if (index < kKept) {
                     const auto count = static_cast<std::size_t>(PatchBlocks::kOrders[index]) *
                                        static_cast<std::size_t>(PatchBlocks::kOrders[index]);

@@ -20,6 +20,7 @@
 #include <numbers>
 
 #include "pbr/numerics/elementary.hpp"
+#include "src/simd/dfg_bands.hpp"
 #include "src/simd/dfg_kernel.hpp"
 #include "src/simd/vector_math.hpp"
 
@@ -135,30 +136,11 @@ template <DfgVisibility visibility>
 HWY_INLINE void row(const double* NoV, std::size_t count, double alpha, const DfgRule& rule, double* E,
                     double* Fc) {
     const hn::ScalableTag<double> d;
-    const std::size_t lanes = hn::Lanes(d);
-    double buffer[hn::MaxLanes(d)];
-    std::size_t view[hn::MaxLanes(d)];
     // Beyond y = ln(2/alpha) + 20 (slopes above e^20) less than 1e-8 of a lobe is left.
     const double longest = log_exact(2 / alpha) + 20;
-    for (const DfgRule::Band& band : rule.bands) {
-        std::size_t used = 0;
-        const auto flush = [&]() HWY_ATTR {
-            if (used == 0) return;
-            for (std::size_t i = 0; i < lanes; ++i) buffer[i] = NoV[view[i < used ? i : 0]];
-            const auto sums = integrate<visibility>(d, hn::LoadU(d, buffer), alpha, longest, band);
-            hn::StoreU(sums.E, d, buffer);
-            for (std::size_t i = 0; i < used; ++i) E[view[i]] = buffer[i];
-            hn::StoreU(sums.Fc, d, buffer);
-            for (std::size_t i = 0; i < used; ++i) Fc[view[i]] = buffer[i];
-            used = 0;
-        };
-        for (std::size_t i = 0; i < count; ++i) {
-            if (&rule.band_of(NoV[i]) != &band) continue;
-            view[used++] = i;
-            if (used == lanes) flush();
-        }
-        flush();
-    }
+    integrate_by_bands(NoV, count, rule, E, Fc, [&](auto views, const DfgRule::Band& band) HWY_ATTR {
+        return integrate<visibility>(d, views, alpha, longest, band);
+    });
 }
 
 void dfg_row(const double* NoV, std::size_t count, double alpha, const DfgMethod& method, double* E,

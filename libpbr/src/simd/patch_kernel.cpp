@@ -15,10 +15,11 @@ namespace pbr {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One row of points: directions and weights.
+/// One row of points: directions and weights, kLanes at once.
+template <std::size_t kLanes>
 HWY_INLINE void lat_long_row(const LatLongPatch& patch, std::size_t row, std::size_t at,
                              PatchPoints& points) {
-    const hn::CappedTag<double, 4> d;  // a row of the smallest blocks
+    const hn::CappedTag<double, kLanes> d;
     const hn::Rebind<float, decltype(d)> to_float;
     const std::size_t lanes = hn::Lanes(d), count = static_cast<std::size_t>(patch.width) * patch.order;
     const double sine = patch.rows.sines[row];
@@ -47,11 +48,44 @@ HWY_INLINE void lat_long_row(const LatLongPatch& patch, std::size_t row, std::si
     }
 }
 
+/// The radiance of a row of texels, a point each.
+HWY_INLINE void radiance_row(const float* rgb, std::size_t count, std::size_t at, PatchPoints& points) {
+    const hn::CappedTag<float, 8> d;
+    const std::size_t lanes = hn::Lanes(d);
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        hn::Vec<decltype(d)> r, g, b;
+        hn::LoadInterleaved3(d, rgb + 3 * i, r, g, b);
+        hn::StoreU(r, d, points.r.data() + at + i);
+        hn::StoreU(g, d, points.g.data() + at + i);
+        hn::StoreU(b, d, points.b.data() + at + i);
+    }
+    for (; i < count; ++i) {
+        points.r[at + i] = rgb[3 * i];
+        points.g[at + i] = rgb[3 * i + 1];
+        points.b[at + i] = rgb[3 * i + 2];
+    }
+}
+
 void lat_long_points(const LatLongPatch& patch, std::size_t at, PatchPoints& points) {
-    const std::size_t order = static_cast<std::size_t>(patch.order);
+    const std::size_t order = static_cast<std::size_t>(patch.order),
+                      columns = static_cast<std::size_t>(patch.width) * order;
+    if (order == 1) {
+        for (int y = 0; y < patch.height; ++y, at += static_cast<std::size_t>(patch.width)) {
+            lat_long_row<8>(patch, static_cast<std::size_t>(y), at, points);
+            radiance_row(patch.rgb + y * patch.stride, static_cast<std::size_t>(patch.width), at, points);
+        }
+        return;
+    }
     for (int y = 0; y < patch.height; ++y) {
         for (std::size_t b = 0; b < order; ++b) {
-            lat_long_row(patch, y * order + b, at, points);
+            lat_long_row<4>(patch, y * order + b, at, points);
+            if (b > 0) {  // the texels of the row before
+                for (std::vector<float>* channel : {&points.r, &points.g, &points.b})
+                    std::copy_n(channel->data() + at - columns, columns, channel->data() + at);
+                at += columns;
+                continue;
+            }
             const float* rgb = patch.rgb + y * patch.stride;
             for (int x = 0; x < patch.width; ++x, rgb += 3)
                 for (std::size_t a = 0; a < order; ++a, ++at) {

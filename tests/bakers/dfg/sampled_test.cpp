@@ -313,7 +313,7 @@ TEST(DfgTerms, HoldTheirLimitsAtAnyRoughness) {
                 params = settled(params);
                 Context context(1, {accuracy});
                 const pbr::DfgMethod method = method_of(params, context.accuracy());
-                const Columns columns = Row(params, method, std::sqrt(alpha), across, context).evaluate();
+                const Columns columns = Row(params, method, {std::sqrt(alpha)}, across, context).evaluate();
                 for (std::size_t i = 0; i < across.size(); ++i) {
                     std::vector<double> texel;
                     for (const std::vector<double>& column : columns) texel.push_back(column[i]);

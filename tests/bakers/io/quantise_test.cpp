@@ -1,8 +1,11 @@
 // quantise: rounding to the pixel type and the one power of two that makes everything fit.
 
 #include <gtest/gtest.h>
+#include <half.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "tests/bakers/io/fixtures.hpp"
@@ -36,6 +39,18 @@ TEST(Quantise, RoundsHalfToNearestEven) {
     auto images = images_of({{2049, 2051, 1.00048828125f}});
     EXPECT_EQ(quantise(images, PixelType::half), 1);
     EXPECT_EQ(row(images), (std::vector<float>{2048, 2052, 1}));
+}
+
+TEST(Quantise, RoundsAsImathDoesAtEveryExponent) {
+    std::vector<float> values;
+    for (std::uint32_t bits = 0; bits < 0x477fe000; bits += 997)  // up to 65,504
+        for (const float sign : {1.f, -1.f}) values.push_back(sign * std::bit_cast<float>(bits));
+    auto images = images_of({values});
+    ASSERT_EQ(quantise(images, PixelType::half), 1);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(row(images)[i]),
+                  std::bit_cast<std::uint32_t>(static_cast<float>(half(values[i]))))
+            << values[i];
 }
 
 TEST(Quantise, ScalesOnlyWhenRoundingWouldOverflow) {

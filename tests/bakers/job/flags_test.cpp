@@ -48,9 +48,9 @@ TEST(Flags, TellWhatTheyTake) {
         EXPECT_NE(flag.help, "") << flag.name;
         flags[flag.name] = flag;
     }
-    EXPECT_EQ(flags["size"].value, "N|N,N");
+    EXPECT_EQ(flags["size"].value, "N|N,...");
     EXPECT_THAT(flags["size"].help,
-                testing::EndsWith("[integer 0 to 4096, or an array of 2 of those; default: 0]"));
+                testing::EndsWith("[integer 0 to 4096, or an array of 2 to 3 of those; default: 0]"));
     EXPECT_TRUE(flags["flip-rows"].is_switch);
     EXPECT_EQ(flags["accuracy"].value, "draft|production|reference|X");
 }
@@ -86,10 +86,10 @@ TEST(Flags, GoDownTheWayOfAJob) {
 
 TEST(Flags, AreNamedInMistakes) {
     EXPECT_THAT(mistakes("dfg", {{"size", "big"}, {"terms", "ggx,gx"}, {"seed", "nan"}}),
-                ElementsAre("--size: found \"big\"; allowed: integer 0 to 4096, or an array of 2 of those",
+                ElementsAre("--size: found \"big\"; allowed: integer 0 to 4096, or an array of 2 to 3 of those",
                             "--terms: found \"gx\"; allowed: \"ggx\", \"disney_diffuse\", \"multiscatter\", "
                             "\"charlie\", \"clear_coat\", \"uncorrelated\", \"eon\", \"chan\", \"hammon\", "
-                            "\"subsurface\"; did you mean \"ggx\"?",
+                            "\"subsurface\", \"ggx_anisotropic\"; did you mean \"ggx\"?",
                             "--seed: found \"nan\"; allowed: integer 0 to 2^53 - 1"));
     EXPECT_THAT(mistakes("dfg", {{"max-side", "0"}}),
                 ElementsAre("--max-side: found 0; allowed: integer 1 to 1048576"));

@@ -93,7 +93,7 @@ TEST(Job, ReportsAllMistakesAtOnce) {
         {"kind": "probe", "name": "b", "source": "b.hdr", "levels": 99},
         {"kind": "dfg", "name": "c", "accuracy": {"max_error": 0.1}, "certify": "none"},
         {"kind": "probe", "name": "c", "source": "../c.hdr"}]})"),
-        ElementsAre(R"(/bakes/0/size: found "big"; allowed: integer 0 to 4096, or an array of 2 of those)",
+        ElementsAre(R"(/bakes/0/size: found "big"; allowed: integer 0 to 4096, or an array of 2 to 3 of those)",
                     "/bakes/1/levels: found 99; allowed: integer 0 to 14",
                     AllOf(StartsWith("/outptu: unknown key"), HasSubstr("did you mean \"output\"?")),
                     StartsWith("/bakes/2/certify: found \"none\", but this bake states a max_error"),

@@ -421,16 +421,17 @@ std::vector<Figure> figures_of(const Certificate& certificate, const std::string
     return found;
 }
 
-/// How often the intervals of many sampled certificates hold what a full one measures: [relative_rmse,
-/// max_error].
-std::array<double, 2> coverage(const ProbeParams& params, const Inputs& inputs, PixelType pixel) {
+/// How often the intervals of many sampled certificates hold the relative_rmse that a full one measures; none
+/// may find a larger error than there is.
+double coverage(const ProbeParams& params, const Inputs& inputs, PixelType pixel) {
     Product product = bake_probe(params, inputs);
     product.scale = io::quantise(product.images, pixel);
     Context full_context(2, {});
     full_context.set_certify_fully(true);
     const Certificate full = certify(params, inputs, product, full_context);
-    std::array<double, 2> held{};
-    const std::array<std::string, 2> metrics{"relative_rmse", "max_error_over_mean"};
+    const std::vector<Figure> truth = figures_of(full, "relative_rmse"),
+                              largest = figures_of(full, "max_error_over_mean");
+    double held = 0;
     constexpr int kSeeds = 40;
     int count = 0;
     for (int seed = 0; seed < kSeeds; ++seed) {
@@ -439,22 +440,16 @@ std::array<double, 2> coverage(const ProbeParams& params, const Inputs& inputs, 
         Context context(2, {});
         const Certificate sampled = certify(with_seed, inputs, product, context);
         count += params.levels - 1;
-        for (std::size_t k = 0; k < 2; ++k) {
-            const std::vector<Figure> truth = figures_of(full, metrics[k]),
-                                      ours = figures_of(sampled, metrics[k]);
-            for (std::size_t l = 0; l < truth.size(); ++l) {
-                EXPECT_EQ(truth[l].evidence, Evidence::measured);
-                const auto [low, high] = ours[l].interval.value_or(std::pair{ours[l].value, ours[l].value});
-                // Below a tenth of the accuracy asked for, errors sit on single texels where the horizon cuts
-                // the sun: what is told of them is that they are small.
-                const bool negligible = truth[l].value < 1e-4 && high < 1e-4;
-                held[k] +=
-                    negligible || (low <= truth[l].value * (1 + 1e-4) && truth[l].value <= high * (1 + 1e-4));
-            }
+        const std::vector<Figure> ours = figures_of(sampled, "relative_rmse"),
+                                  found = figures_of(sampled, "max_error_over_mean");
+        for (std::size_t l = 0; l < truth.size(); ++l) {
+            EXPECT_EQ(truth[l].evidence, Evidence::measured);
+            EXPECT_LE(found[l].value, largest[l].value + 1e-4);  // both against sums with a far field
+            const auto [low, high] = ours[l].interval.value_or(std::pair{ours[l].value, ours[l].value});
+            held += low <= truth[l].value * (1 + 1e-4) && truth[l].value <= high * (1 + 1e-4);
         }
     }
-    for (double& share : held) share /= count;
-    return held;
+    return held / count;
 }
 
 TEST(ProbeCertificate, IntervalsHoldTheFullMeasurement) {
@@ -471,14 +466,7 @@ TEST(ProbeCertificate, IntervalsHoldTheFullMeasurement) {
                     continue;  // its noise hides storage
                 params.integrator = integrator;
                 params.samples = {integrator == Integrator::fis ? 64 : 0};
-                const auto [rmse, largest] = coverage(params, *inputs, pixel);
-                // What the solver itself is off, without storage, is a hundredth of what was asked, and with
-                // a sun on the horizon sits on single texels that a hash may miss.
-                const bool alone = integrator == Integrator::harmonic && pixel == PixelType::float32;
-                EXPECT_GE(rmse, alone ? 0.5 : 0.9)
-                    << "sun " << (inputs == &sun) << " integrator " << static_cast<int>(integrator)
-                    << " half " << (pixel == PixelType::half);
-                EXPECT_GE(largest, alone ? 0.4 : 0.9)
+                EXPECT_GE(coverage(params, *inputs, pixel), 0.9)
                     << "sun " << (inputs == &sun) << " integrator " << static_cast<int>(integrator)
                     << " half " << (pixel == PixelType::half);
             }

@@ -98,6 +98,27 @@ TEST(Texture, BytesDoNotDependOnThreads) {
     EXPECT_EQ(one.figure("delta_e_mean"), three.figure("delta_e_mean"));
 }
 
+TEST(Texture, ASetWithoutExponentHasTheOneOfTheRoughnessItGets) {
+    TextureParams params = defaults();
+    params.model = Model::blinn_phong;
+    params.calibrate = Calibrate::none;
+    Inputs inputs;
+    inputs["diffuse"] = source(4, 4, 3, 0, [](int, int) { return Rgba{.2f, .2f, .2f, 1}; });
+    inputs["specular"] = source(4, 4, 3, 0, [](int, int) { return Rgba{.1f, .1f, .1f, 1}; });
+    const auto texels = [&] {
+        std::vector<std::vector<float>> values;
+        for (const Image& image : bake_set(params, inputs, PixelType::float32).product.images)
+            values.push_back(image.levels[0].texels);
+        return values;
+    };
+    const auto without = texels();
+    params.power = 30;  // alpha^2 = 2 / (30 + 2) is that of perceptual roughness .5
+    const auto with = texels();
+    ASSERT_EQ(without.size(), with.size());
+    for (std::size_t i = 0; i < with.size(); ++i)
+        for (std::size_t k = 0; k < with[i].size(); ++k) EXPECT_NEAR(without[i][k], with[i][k], 1e-6);
+}
+
 TEST(Texture, BlinnPhongKeepsEnergyAndReportsWhatItCannot) {
     TextureParams params = defaults();
     params.model = Model::blinn_phong;
@@ -278,6 +299,83 @@ TEST(Texture, ConcreteIsNoMetalAndSteelIsHoweverTheirSpecularWasPainted) {
         });
         const Baked baked = bake_set(params, inputs, PixelType::unorm8);
         EXPECT_EQ(baked.set()["mean_metallic"], metallic) << file;
+    }
+}
+
+TEST(Texture, DoubtsGlossThatIsLowWhereSpecularIsBright) {
+    for (const bool is_rough : {false, true}) {
+        TextureParams params = defaults();
+        Inputs inputs = specular_gloss_set(16, 8);
+        inputs["specular"] = source(16, 16, 4, 8, [&](int x, int) {
+            const float s = static_cast<float>(x) / 40, g = static_cast<float>(x) / 15;
+            return Rgba{s, s, s, is_rough ? 1 - g : g};
+        });
+        const auto doubted = testing::Contains(testing::HasSubstr("roughness map"));
+        Baked baked = bake_set(params, inputs, PixelType::unorm8);
+        EXPECT_NEAR(baked.set()["gloss_correlation"].get<double>(), is_rough ? -1 : 1, .05);
+        if (is_rough)
+            EXPECT_THAT(baked.product.warnings, doubted);
+        else
+            EXPECT_THAT(baked.product.warnings, testing::Not(doubted));
+        params.gloss_is = GlossIs::smoothness;
+        EXPECT_THAT(bake_set(params, inputs, PixelType::unorm8).product.warnings, testing::Not(doubted));
+    }
+}
+
+TEST(Texture, DoubtsExponentsOfTheWrongScaleAndOcclusionInDiffuse) {
+    TextureParams params = defaults();
+    params.model = Model::blinn_phong;
+    params.gloss_is = GlossIs::power;
+    params.power_scale = 1;
+    params.gloss = "set_g.png";
+    params.occlusion = "set_ao.png";
+    Inputs inputs;
+    const auto ramp = [](int x, int) {
+        const float v = static_cast<float>(x) / 15;
+        return Rgba{v, v, v, 1};
+    };
+    for (const char* field : {"diffuse", "gloss", "occlusion"}) inputs[field] = source(16, 16, 3, 0, ramp);
+    inputs["specular"] = source(16, 16, 3, 0, [](int, int) { return Rgba{.04f, .04f, .04f, 1}; });
+    const Baked low = bake_set(params, inputs, PixelType::unorm8);
+    EXPECT_THAT(low.product.warnings, testing::Contains(testing::HasSubstr("power_scale may be too small")));
+    EXPECT_THAT(low.product.warnings, testing::Contains(testing::HasSubstr("count twice")));
+    EXPECT_NEAR(low.set()["occlusion_correlation"].get<double>(), 1, 1e-6);
+    params.power_scale = 1e6;
+    EXPECT_THAT(bake_set(params, inputs, PixelType::unorm8).product.warnings,
+                testing::Contains(testing::HasSubstr("power_scale may be too large")));
+}
+
+TEST(Texture, SampledCertificatesHoldWhatFullOnesMeasure) {
+    TextureParams params = defaults();
+    const Inputs inputs = specular_gloss_set(512, 8);
+    const Baked full = bake_set(params, inputs, PixelType::unorm8, 2);
+    Context context(2, {});
+    const Certificate sampled = certify(params, inputs, full.product, context);
+    ASSERT_TRUE(sampled.headline->interval);
+    EXPECT_EQ(sampled.headline->evidence, Evidence::estimate);
+    EXPECT_LE(sampled.headline->interval->first, full.figure("energy_error"));
+    EXPECT_GE(sampled.headline->interval->second, full.figure("energy_error"));
+    for (const Figure& figure : sampled.figures)
+        EXPECT_LE(figure.value, full.figure(figure.metric) * 1.1 + 1e-6);
+}
+
+/// The largest level is converted by strips; what a strip holds must not show.
+TEST(Texture, StripsDoNotShow) {
+    TextureParams params = defaults();
+    params.levels = 0;
+    const Rgba grey{.3f, .2f, .1f, 1};
+    for (const auto& [width, height] : {std::pair(1, 301), std::pair(3000, 67), std::pair(301, 1)}) {
+        SCOPED_TRACE(width);
+        Inputs inputs;
+        inputs["diffuse"] = source(width, height, 3, 0, [&](int, int) { return grey; });
+        inputs["specular"] = source(width, height, 4, 0, [](int, int) {
+            return Rgba{.06f, .06f, .06f, .5f};
+        });
+        const Baked baked = bake_set(params, inputs, PixelType::float32, 3);
+        for (const Image& image : baked.product.images)
+            for (const Level& level : image.levels)
+                for (std::size_t i = 0; i < level.texels.size(); ++i)
+                    ASSERT_NEAR(level.texels[i], level.texels[i % image.channels.size()], 1e-5) << image.name;
     }
 }
 

@@ -1,4 +1,5 @@
 #include "bakers/verify/compare.hpp"
+#include "bakers/verify/product_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -115,6 +116,26 @@ TEST(CompareRecords, PairsProductsOfDifferentNames) {
     };
     const fs::path a = record("today"), b = record("yesterday");
     EXPECT_THAT(lines(a, b), ElementsAre("ok    today.exr: identical"));
+}
+
+TEST(CompareRecords, PairsOutputsByWhatTheyAre) {
+    const TemporaryFolder folder;
+    const auto record = [&](const std::string& name, const std::vector<std::string>& endings) {
+        std::string outputs;
+        for (const std::string& ending : endings) {
+            fs::copy(baked_folder() / "table.exr", folder / (name + ending));
+            outputs += (outputs.empty() ? "" : ", ") + (R"({"path": ")" + name + ending + "\"}");
+        }
+        return folder.write(name + ".exr.json",
+                            R"({"name": ")" + name + R"(", "outputs": [)" + outputs + "]}");
+    };
+    const fs::path a = record("new", {".exr", "_normal.exr", "_orm.exr"}),
+                   b = record("old", {".exr", "_orm.exr"});
+    EXPECT_THAT(lines(a, b),
+                ElementsAre("ok    new.exr: identical",
+                            testing::StartsWith("FAIL  new_normal.exr: the reference hasn't got it"),
+                            "ok    new_orm.exr: identical"));
+    EXPECT_FALSE(record_of(folder / "new_normal.exr").is_null());
 }
 
 TEST(CompareDocuments, NumbersMayMoveALittleAndTextsMayNot) {

@@ -95,11 +95,14 @@ TEST(Ball, ReflectsTheCameraInItsMiddleAndWhatIsBehindAtItsRim) {
 }
 
 TEST(Level, IsReadInItsDirectionAndUnscaled) {
-    const Image cube = cube_of(16, [](int, const glm::dvec3& d) { return 0.25 * (glm::dvec3(2) + d); });
-    const Radiance radiance = radiance_of_level(cube, 0, 0.25);
-    for (const glm::dvec3& d : {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0),
-                                glm::normalize(glm::dvec3(1, 2, -3)), glm::normalize(glm::dvec3(1, 1, 1))})
-        EXPECT_LT(glm::length(radiance(d) - (glm::dvec3(2) + d)), 0.1);
+    for (const int size : {16, 15, 24, 100}) {
+        const Image cube = cube_of(size, [](int, const glm::dvec3& d) { return 0.25 * (glm::dvec3(2) + d); });
+        const Radiance radiance = radiance_of_level(cube, 0, 0.25);
+        for (const glm::dvec3& d :
+             {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0.3, 0.2, -1),
+              glm::normalize(glm::dvec3(1, 2, -3)), glm::normalize(glm::dvec3(1, 1, 1))})
+            EXPECT_LT(glm::length(radiance(d) - (glm::dvec3(2) + d)), 0.1) << size;
+    }
 }
 
 TEST(Strip, ShowsEveryBallBeforeTheBackground) {

@@ -229,7 +229,7 @@ TEST(PlantedChange, OnePercentOfEnergyIsNamed) {
         const ProductComparison product = changed(name, loss);
         EXPECT_NEAR(product.worst.energy_change, 0.01, 2e-4);  // a half's rounding
         EXPECT_THAT(verdict_line(product), HasSubstr("energy change 0.0"));
-        EXPECT_THAT(verdict_line(product), HasSubstr("looks like: values are 0.990 times the reference's ("));
+        EXPECT_THAT(verdict_line(product), HasSubstr("looks like: values are 0.9900 times the reference's ("));
     }
 }
 
@@ -238,7 +238,7 @@ TEST(PlantedChange, OfOneLevelNamesTheLevel) {
                         [](Image& image) {
                             for (float& value : image.levels[2].texels) value *= 0.5f;
                         }),
-                HasSubstr("looks like: level 2: values are 0.500 times"));
+                HasSubstr("looks like: level 2: values are 0.5 times"));
 }
 
 TEST(PlantedChange, OfOneTexelFails) {

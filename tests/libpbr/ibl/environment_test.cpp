@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <utility>
-
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "pbr/ibl/cubemap.hpp"
@@ -154,6 +154,47 @@ TEST(Equirect, AWholeCubeAtOnceHasTheMeansOfItsRows) {
             const std::vector<float> constant(picture.size(), 0.7f);
             resample_area({constant.data(), width, height, frame}, size, for_each_in_turn, whole);
             for (const float value : whole) ASSERT_EQ(value, 0.7f);
+            resample_bilinear(view, size, for_each_in_turn, whole);
+            for (int row = 0; row < 6 * size; ++row) {
+                std::vector<float> alone(static_cast<std::size_t>(size) * 3);
+                resample_bilinear(view, size, row / size, row % size, alone);
+                for (std::size_t i = 0; i < alone.size(); ++i)
+                    ASSERT_NEAR(whole[static_cast<std::size_t>(row) * alone.size() + i], alone[i], 1e-6);
+            }
+        }
+}
+
+TEST(Equirect, MeansOverTexelsStayWhenColumnsAreSplit) {
+    // The same function in 16 times as many columns: quadrature cut in other places.
+    constexpr int kSplit = 16;
+    for (const glm::dmat3& frame : frames())
+        for (const auto& [width, height, size] : {std::tuple{32, 16, 8}, {40, 20, 7}, {12, 31, 3}}) {
+            const std::vector<float> picture = noise(width * height);
+            std::vector<float> split;
+            for (int texel = 0; texel < width * height; ++texel)
+                for (int copy = 0; copy < kSplit; ++copy)
+                    split.insert(split.end(), &picture[static_cast<std::size_t>(texel) * 3],
+                                 &picture[static_cast<std::size_t>(texel) * 3] + 3);
+            const std::vector<float> few = resample_all({picture.data(), width, height, frame}, size),
+                                     many = resample_all({split.data(), width * kSplit, height, frame}, size);
+            for (std::size_t i = 0; i < few.size(); ++i)
+                ASSERT_NEAR(few[i], many[i], 1e-5) << width << ' ' << i;
+        }
+}
+
+TEST(Equirect, ASunInAWholeCubeIsAsExactAsInItsRows) {
+    constexpr int kWidth = 256, kHeight = 128, kSize = 24;
+    for (const glm::dmat3& frame : frames())
+        for (const auto& [x, y] : {std::pair{35, 20}, {64, 64}, {32, 45}, {0, 127}}) {
+            std::vector<float> picture(kWidth * kHeight * 3, 1.f);
+            std::fill_n(&picture[static_cast<std::size_t>(y * kWidth + x) * 3], 3, 1e6f);
+            const EquirectView view{picture.data(), kWidth, kHeight, frame};
+            std::vector<float> whole(kSize * kSize * 18);
+            resample_area(view, kSize, for_each_in_turn, whole);
+            const std::vector<float> rows = resample_all(view, kSize);
+            const float peak = *std::ranges::max_element(rows);
+            for (std::size_t i = 0; i < whole.size(); ++i)
+                ASSERT_NEAR(whole[i], rows[i], 1e-5 * static_cast<double>(peak)) << x << ' ' << y << ' ' << i;
         }
 }
 

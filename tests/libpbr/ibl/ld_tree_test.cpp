@@ -122,7 +122,8 @@ TEST(MomentTree, LowBandsAreThoseOfItsTexels) {
     const std::vector<float> picture = noise(512 * 256, 100), cube = noise(std::size_t{6} * 128 * 128, 100);
     const auto compare = [](const PatchBlocks& blocks) {
         const MomentTree tree(blocks, for_each_in_turn);
-        const std::vector<glm::dvec3> exact = sh_project(blocks, 5), ours = sh_project(tree, 5);
+        const std::vector<glm::dvec3> exact = sh_project(blocks, kMomentBands),
+                                      ours = sh_project(tree, kMomentBands);
         for (std::size_t i = 0; i < exact.size(); ++i)
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(ours[i][c], exact[i][c], 1e-4 * tree.mean()[c]) << i;
     };

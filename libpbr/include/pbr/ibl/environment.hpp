@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
+#include "pbr/ibl/cubemap.hpp"
 #include "pbr/numerics/for_each.hpp"
 
 namespace pbr {
@@ -52,17 +53,21 @@ void equirect_points(std::span<const glm::dvec3> directions, std::span<glm::dvec
 /// below 1e-14.
 double equirect_texel_solid_angle(int width, int height, int y);
 
-/// Row y of a face of a cube map of `size`: each texel the mean radiance of the picture over the texel's
-/// solid angle. `rgb_out` holds size * 3 floats. Every texel's integral is exact in colatitude and by
-/// three-point Gauss-Legendre quadrature in longitude between the picture's columns. Error, as a share of the
-/// contrast between neighbouring texels of the picture: 4e-4 root mean square, 1e-2 at most; 0 for a constant
-/// picture.
+/// Texels of a cube map of `size`: each the mean radiance of the picture over the texel's solid angle.
+/// `rgb_out` holds texels.size() * 3 floats. Every texel's integral is exact in colatitude and by quadrature
+/// in longitude between the picture's columns, cut where an edge of the texel leaves a row. Error, as a share
+/// of the contrast between neighbouring texels of the picture: below 1e-5; 0 for a constant picture.
+void resample_area(const EquirectView& source, int size, std::span<const CubeTexel> texels,
+                   std::span<float> rgb_out);
+
+/// The same for row y of a face.
 void resample_area(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out);
 
 /// All faces at once, in rgb_out[((face * size + y) * size + x) * 3], more than ten times faster where
 /// world_to_source takes the picture's vertical axis to an axis of the cube, its width is a multiple of 4
 /// from 64 up and, for the two faces at the poles, `size` is even. By two points between columns:
-/// error 1.2e-3 root mean square, 2.5e-2 at most.
+/// error 1.2e-3 root mean square, 2.5e-2 at most, but as above for texels more than 20 times as bright as the
+/// mean and their neighbours (of the brightest in 256).
 void resample_area(const EquirectView& source, int size, const ForEach& each, std::span<float> rgb_out);
 
 /// The same for a cube map of another size: exact.
@@ -72,5 +77,8 @@ void resample_area(const CubeView& source, int size, int face, int y, std::span<
 /// the seam and over the poles, and for cube maps across edges.
 void resample_bilinear(const EquirectView& source, int size, int face, int y, std::span<float> rgb_out);
 void resample_bilinear(const CubeView& source, int size, int face, int y, std::span<float> rgb_out);
+
+/// All faces at once, laid out as resample_area's, several times faster where that is. Differs by rounding.
+void resample_bilinear(const EquirectView& source, int size, const ForEach& each, std::span<float> rgb_out);
 
 }  // namespace pbr

@@ -53,8 +53,8 @@ class HarmonicSpectrum {
     /// Coefficient of a degree in [order, bands()] and order >= 0: re, im of R, G, B.
     std::span<const double, 6> coefficient(int degree, int order) const;
 
-    /// Sum of |E_lm|^2 over the orders of a degree, negative ones too, and the channels.
-    double power(int degree) const;
+    /// Of each degree the sum of |E_lm|^2 over its orders, negative ones too, and the channels.
+    std::vector<double> powers() const;
 
     /// Coefficients of one order, those of a degree after the other.
     std::span<const double> of_order(int order) const;

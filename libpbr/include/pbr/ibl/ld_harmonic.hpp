@@ -87,6 +87,7 @@ class LdHarmonic {
     std::vector<CubeTexel> bright_;
     std::optional<BrightTexels> bright_texels_;
     std::optional<HarmonicSpectrum> spectrum_;
+    std::vector<double> powers_;  ///< of its degrees
     EquirectView equirect_;  ///< if it is one
 };
 

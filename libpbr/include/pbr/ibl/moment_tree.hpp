@@ -86,9 +86,12 @@ class MomentTree {
     glm::dvec3 mean_;
 };
 
+/// Bands that moments up to the third determine: Y of l <= 3 are polynomials of as low a degree.
+inline constexpr int kMomentBands = 4;
+
 /// Coefficients of the picture's RGB radiance in spherical harmonics, in the order of sh_index, from the
-/// tree's smallest nodes: bands >= 1. Relative to the mean radiance, error below (bands r)^3 / 30 for nodes
-/// of reach r: 1e-4 for 5 bands and pictures of 512 texels around.
+/// moments of the whole: bands 1 to kMomentBands. Relative to the mean radiance within 1e-5 of the picture's
+/// points, whatever its size.
 std::vector<glm::dvec3> sh_project(const MomentTree& source, int bands);
 
 }  // namespace pbr

@@ -31,7 +31,7 @@ class SplitKernel {
     const std::array<double, 4>& polynomial() const { return polynomial_; }
 
     /// Radius beyond which the far part needs no degree above `bands`, for values within about max_error
-    /// / 10.
+    /// / 10 where that is 1e-4 or more, and half of max_error at 1e-5.
     static double radius_for(int bands, double max_error);
 
   private:

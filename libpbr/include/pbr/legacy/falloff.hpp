@@ -66,7 +66,7 @@ struct SpotFalloff {
 };
 
 /// Share of the intensity on the axis left at an angle whose cosine is given, in [-1, 1]. 0 outside the outer
-/// cone; inner = outer is a hard edge. cosine_power is 0 where the cosine is negative. Error 1e-14.
+/// cone; inner = outer is a hard edge. cosine_power is 0 where the cosine is negative, unless its exponent is 0. Error 1e-14.
 double spot_falloff_at(const SpotFalloff& law, double cosine);
 
 /// x^p of x >= 0 with bits that no CPU changes; p in [0, 1e4]. 0^0 is 1. Relative error 1e-13 for x in
