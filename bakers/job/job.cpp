@@ -106,19 +106,20 @@ class Reading {
     /// What a source says is held against the schema as what a job says is, but it is the source's mistake.
     void refuse_fields_of_sources(const Json& given) {
         for (const Mistake& mistake : job_schema().mistakes(document_)) {
-            const Json::json_pointer place(mistake.pointer);
-            const std::size_t i = std::stoul(mistake.pointer.substr(std::string("/bakes/").size()));
+            const std::string at = mistake.pointer.substr(std::string_view("/bakes/").size());
+            const std::size_t i = std::stoul(at);
             Json& bake = document_["bakes"][i];
             if (origins_[i].error) continue;
             origins_[i].error =
                 Error(ExitCode::unreadable_input, bake.value("source", ""),
-                      "material " + shown(bake["material"]) + ": " + place.back() + ": " + mistake.message);
+                      "material " + shown(bake["material"]) + ": " + at.substr(at.find('/') + 1) + ": " +
+                          mistake.message);
         }
         for (std::size_t i = 0; i < origins_.size(); ++i) {
             if (!origins_[i].error) continue;
             Json& bake = document_["bakes"][i];
             const Json name = bake["name"];
-            bake = given[std::stoul(origins_[i].at.substr(std::string("/bakes/").size()))];
+            bake = given[std::stoul(origins_[i].at.substr(std::string_view("/bakes/").size()))];
             bake["name"] = name;
         }
     }

@@ -1,6 +1,6 @@
 // Any bytes as a file of materials, of each format: finite factors in their ranges, or an error.
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -116,7 +116,7 @@ TEST(Mtl, JoinsLinesAndTakesTheFirstOfANameTwice) {
 }
 
 TEST(Mtl, NamesTheLineOfWhatIsWrong) {
-    EXPECT_THAT(refusal("newmtl a\nKd 1 x 1", "m.mtl"), HasSubstr("m.mtl:2: found \"x\" as \"kd\""));
+    EXPECT_THAT(refusal("newmtl a\nKd 1 x 1", "m.mtl"), HasSubstr("m.mtl:2: found 'x' as 'kd'"));
     for (const char* line : {"Kd nan", "Ks inf", "Ns -1", "Ns 1e9", "Kd 1 1", "d 2", "Tr -1", "Pr 2",
                              "illum many", "map_Kd", "map_Kd -s 1 1 1", "map_Kd -bm", "Ns"})
         EXPECT_THAT(refusal(std::string("newmtl a\n") + line, "m.mtl"), HasSubstr("m.mtl:2: ")) << line;
@@ -165,14 +165,14 @@ TEST(GltfMaterials, RefuseWhatIsAbsentOrOutOfRange) {
         return refusal(replaced(kGltf, from, to), "m.gltf");
     };
     EXPECT_THAT(with("\"diffuseTexture\": {\"index\": 0", "\"diffuseTexture\": {\"index\": 7"),
-                HasSubstr("diffuseTexture/index: found 7"));
+                HasSubstr("diffuseTexture/index: found '7'"));
     EXPECT_THAT(with("\"source\": 0", "\"source\": 9"), HasSubstr("m.gltf#/textures/0/source"));
     EXPECT_THAT(with("\"diffuseTexture\": {\"index\": 0", "\"diffuseTexture\": {\"index\": 2"),
                 HasSubstr("(this one is in a buffer)"));
     EXPECT_THAT(with("0.25, 0.125", "2, 0.125"), HasSubstr("diffuseFactor"));
     EXPECT_THAT(with("\"glossinessFactor\": 0.6", "\"glossinessFactor\": \"x\""),
                 HasSubstr("glossinessFactor"));
-    EXPECT_THAT(with("\"MASK\"", "\"GLASS\""), HasSubstr("alphaMode: found \"GLASS\"; allowed: \"OPAQUE\""));
+    EXPECT_THAT(with("\"MASK\"", "\"GLASS\""), HasSubstr("alphaMode: found '\"GLASS\"'; allowed: \"OPAQUE\""));
     EXPECT_THAT(with("\"emissiveStrength\": 4", "\"emissiveStrength\": -4"), HasSubstr("emissiveStrength"));
     EXPECT_THAT(refusal(R"({"asset": {}, "materials": [{"name": "steel"}]})", "m.gltf"),
                 HasSubstr("they are metallic already"));
@@ -229,15 +229,15 @@ TEST(ColladaMaterials, RefuseWhatIsAbsentOrWrong) {
     const auto with = [](const char* from, const char* to) {
         return refusal(replaced(kCollada, from, to), "m.dae");
     };
-    EXPECT_THAT(with("url=\"#e\"", "url=\"#x\""), HasSubstr("m.dae:17: names the effect \"x\""));
+    EXPECT_THAT(with("url=\"#e\"", "url=\"#x\""), HasSubstr("m.dae:15: names the effect 'x'"));
     EXPECT_THAT(with("<source>surf", "<source>none"), HasSubstr("m.dae:9: names the image"));
-    EXPECT_THAT(with(">50<", ">nan<"), HasSubstr("m.dae:11: found \"nan\" in <float>"));
+    EXPECT_THAT(with(">50<", ">nan<"), HasSubstr("m.dae:11: found 'nan' in <float>"));
     EXPECT_THAT(with(">.4 .4 .4 1<", ">.4 .4<"), HasSubstr("m.dae:10: found 2 numbers in <color>"));
     EXPECT_THAT(with("</phong>", "</fong>"), HasSubstr("is no XML"));
-    EXPECT_THAT(refusal("<a/>", "m.dae"), HasSubstr("found the element \"a\"; allowed: COLLADA"));
+    EXPECT_THAT(refusal("<a/>", "m.dae"), HasSubstr("found the element 'a'; allowed: COLLADA"));
     EXPECT_THAT(refusal("<COLLADA/>", "m.dae"), HasSubstr("holds no materials"));
     // A sampler that leads to itself leads to no image.
-    EXPECT_THAT(with("<source>surf", "<source>samp"), HasSubstr("names the image \"samp\""));
+    EXPECT_THAT(with("<source>surf", "<source>samp"), HasSubstr("names the image 'samp'"));
 }
 
 TEST(PlainMaterials, HoldFieldsOfASet) {
@@ -262,7 +262,7 @@ TEST(Materials, AreFoundByNameOrIdOrListed) {
         FAIL();
     } catch (const Error& error) {
         EXPECT_THAT(error.what(),
-                    HasSubstr("found no material \"wal\"; allowed: \"wall\"; did you mean \"wall\"?"));
+                    HasSubstr("found no material 'wal'; allowed: \"wall\"; did you mean \"wall\"?"));
     }
 }
 
