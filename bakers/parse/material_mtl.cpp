@@ -81,7 +81,8 @@ class Mtl {
   private:
     void read_line(std::string_view line) {
         if (trimmed(line).starts_with('#')) return;
-        const std::string key = lower(take_word(line));
+        said_ = take_word(line);
+        const std::string key = lower(said_);
         if (key.empty()) return;
         if (key == "newmtl") {
             begin(line);
@@ -202,8 +203,8 @@ class Mtl {
         }
         MaterialMap& map = material().*found->second;
         // norm says that it holds normals, which map_bump may or may not.
-        if (key != "norm" && map.said == "norm") return true;
-        map = {{}, key, line_, {}};
+        if (key != "norm" && lower(map.said) == "norm") return true;
+        map = {{}, said_, line_, {}};
         map.path = after_options(map, line);
         std::ranges::replace(map.path, '\\', '/');
         if (map.path.empty())
@@ -268,6 +269,7 @@ class Mtl {
     MaterialFile result_;
     std::set<std::string> names_;
     int line_ = 0;
+    std::string said_;  ///< the line's keyword
     bool states_d_ = false;
 };
 

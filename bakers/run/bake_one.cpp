@@ -196,6 +196,11 @@ class BakeRun {
     }
 
     void encode() {
+        // Of documents the main file comes first, and before the pictures beside it.
+        const auto others = std::ranges::stable_partition(
+            product_.documents, [&](const Document& document) { return is_main(document.suffix); });
+        for (auto document = product_.documents.begin(); document != others.begin(); ++document)
+            add_document(*document);
         const io::FileInfo info{pixel(), metadata(job_, bake_, product_), bake_.name};
         for (Image& image : product_.images) {
             const bool is_first = files_.empty() && !find_format(bake_.format)->is_document();
@@ -205,10 +210,7 @@ class BakeRun {
             files_.push_back(std::move(bytes));
             for (Level& level : image.levels) level.texels = {};
         }
-        // Of documents the main file comes first.
-        std::ranges::stable_partition(product_.documents,
-                                      [&](const Document& document) { return is_main(document.suffix); });
-        for (const Document& document : product_.documents) add_document(document);
+        for (const Document& document : others) add_document(document);
     }
 
     bool is_main(const std::string& suffix) const { return is_main_document(bake_, suffix); }

@@ -55,7 +55,7 @@ class Filling {
     void map(const char* field, const MaterialMap& map) {
         if (map.path.empty() || states(field)) return;
         const std::string path = find(field, map);
-        if (path != folder_of(source_) + map.path)
+        if (!path.ends_with(map.path.substr(map.path.starts_with("./") ? 2 : 0)))
             warn(map.said + ": took \"" + path + "\" for \"" + map.path + "\"", map.line);
         bake_[field] = path;
         transforms_.push_back(map.transform);
@@ -96,9 +96,10 @@ class Filling {
     /// As the material has it, else a file of that name beside the material: paths of other machines.
     std::string find(const char* field, const MaterialMap& map) const {
         const std::optional<std::string> refusal = parse::path_refusal(map.path);
-        const std::string folder = folder_of(source_), name = map.path.substr(folder_of(map.path).size());
+        const std::string folder = folder_of(source_),
+                          inner = map.path.starts_with("./") ? map.path.substr(2) : map.path, name = map.path.substr(folder_of(map.path).size());
         if (!refusal)
-            if (std::string path = files_.find(folder + map.path); !path.empty()) return path;
+            if (std::string path = files_.find(folder + inner); !path.empty()) return path;
         const bool is_file = !map.path.starts_with("data:") && !name.empty() && name != ".." && name != ".";
         if (is_file)
             if (std::string path = files_.find(folder + name); !path.empty()) return path;
@@ -106,7 +107,7 @@ class Filling {
             source_, map.line,
             "material \"" + material_ + "\": " + map.said + ": " +
                 (refusal ? parse::quoted(map.path) + " " + *refusal
-                         : "there is no file \"" + folder + map.path + "\"") +
+                         : "there is no file \"" + folder + inner + "\"") +
                 "; put the picture beside " + source_ + ", or state " + field + " (\"\" for none)");
     }
 
@@ -156,13 +157,24 @@ void fill_phong(const LegacyMaterial& material, Filling& fill) {
     fill_phong_gloss(material, fill);
 }
 
+/// One grey f0 below all metals' beside a diffuse colour: a high dielectric f0, which a mask would take for
+/// some metal.
+bool is_high_dielectric(const LegacyMaterial& material) {
+    constexpr double kLeastMetal = .25;
+    if (!material.specular.path.empty() || !material.specular_factor) return false;
+    const glm::dvec3 f0 = *material.specular_factor;
+    return f0 == glm::dvec3(f0.x) && f0.x < kLeastMetal && material.diffuse_factor != glm::dvec3(0);
+}
+
 void fill_specular_gloss(const LegacyMaterial& material, Filling& fill) {
     fill.set("model", "specular_gloss");
     fill.map("specular", material.specular);
     if (material.specular_factor)
         fill.set("specular_factor",
                  specular_json(*material.specular_factor, !material.specular.path.empty()));
-    fill.set("normal_green", "up");  // glTF 2.0, "Material.normalTexture"
+    fill.set("normal_green", "up");     // glTF 2.0, "Material.normalTexture"
+    fill.set("colour_space", "srgb");  // the extension's word for both pictures
+    if (is_high_dielectric(material)) fill.set("surface", "dielectric");
     if (fill.states_gloss()) return;
     if (material.specular.path.empty()) return fill_constant_gloss(material.glossiness, fill);
     fill.set("gloss_in", "specular_alpha");

@@ -71,7 +71,7 @@ TEST(Materials, OfASceneAreBakedOneByOne) {
     scene.add("brick.tga", targa(180, 90, 60));
     const Outcome outcome = scene.bake("out.gltf");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("scene.mtl:6: material \"brick wall\": map_kd: took"));
+    EXPECT_THAT(outcome.err, HasSubstr("scene.mtl:6: material \"brick wall\": map_Kd: took"));
 
     const Json document = read_json(scene.path("out_brick_wall.gltf"));
     EXPECT_EQ(document["images"][0]["uri"], "out_brick_wall_base_color.png");
@@ -175,7 +175,7 @@ TEST(Materials, FailOneByOneAndSayWhere) {
     const Scene scene("scene.mtl", kThree);  // brick.tga is absent
     const Outcome outcome = scene.bake("out.gltf");
     EXPECT_EQ(outcome.code, 4);
-    EXPECT_THAT(outcome.err, HasSubstr("scene.mtl:6: material \"brick wall\": map_kd: there is no file"));
+    EXPECT_THAT(outcome.err, HasSubstr("scene.mtl:6: material \"brick wall\": map_Kd: there is no file"));
     EXPECT_TRUE(fs::exists(scene.path("out_gold.gltf")));
     EXPECT_FALSE(fs::exists(scene.path("out_brick_wall.gltf")));
     EXPECT_FALSE(fs::exists(scene.path("out_brick_wall_base_color.png")));
@@ -246,7 +246,7 @@ TEST(MaterialsRealFiles, Convert) {
     const Outcome spider = run_program({"texture", "--source", fs::path(data) / "legacy/assimp/spider.mtl",
                                         "-o", out / "spider.gltf"});
     EXPECT_EQ(spider.code, 4);
-    EXPECT_THAT(spider.err, HasSubstr("spider.mtl:10: material \"Skin\": map_kd: there is no file"));
+    EXPECT_THAT(spider.err, HasSubstr("spider.mtl:10: material \"Skin\": map_Kd: there is no file"));
 }
 
 }  // namespace

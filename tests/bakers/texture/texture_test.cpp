@@ -270,7 +270,7 @@ TEST(Texture, EveryPackingHoldsTheSet) {
         const Baked baked = bake_set(params, inputs, PixelType::unorm16);
         EXPECT_LT(baked.figure("energy_error"), 2e-3);
         EXPECT_LT(baked.figure("delta_e_max"), 1.5);
-        std::vector<std::string> named = images(params);
+        std::vector<std::string> named = images(params, "exr");
         ASSERT_EQ(baked.product.images.size(), named.size() + 1);
         for (std::size_t i = 0; i < named.size(); ++i) EXPECT_EQ(baked.product.images[i + 1].name, named[i]);
     }
