@@ -196,11 +196,6 @@ class BakeRun {
     }
 
     void encode() {
-        // Of documents the main file comes first, and before the pictures beside it.
-        const auto others = std::ranges::stable_partition(
-            product_.documents, [&](const Document& document) { return is_main(document.suffix); });
-        for (auto document = product_.documents.begin(); document != others.begin(); ++document)
-            add_document(*document);
         const io::FileInfo info{pixel(), metadata(job_, bake_, product_), bake_.name};
         for (Image& image : product_.images) {
             const bool is_first = files_.empty() && !find_format(bake_.format)->is_document();
@@ -210,7 +205,10 @@ class BakeRun {
             files_.push_back(std::move(bytes));
             for (Level& level : image.levels) level.texels = {};
         }
-        for (const Document& document : others) add_document(document);
+        // Pictures come before documents, and of these the main file first.
+        std::ranges::stable_partition(product_.documents,
+                                      [&](const Document& document) { return is_main(document.suffix); });
+        for (const Document& document : product_.documents) add_document(document);
     }
 
     bool is_main(const std::string& suffix) const { return is_main_document(bake_, suffix); }
@@ -244,7 +242,8 @@ class BakeRun {
         for (std::size_t i = 0; i < files_.size(); ++i) {
             const fs::path file = job_.output / outputs_[i].file;
             write_atomically(file, files_[i]);
-            report_.writes.push_back(file);
+            const bool is_first = outputs_[i].file == bake_.file;
+            report_.writes.insert(is_first ? report_.writes.begin() : report_.writes.end(), file);
         }
         if (job_.record == job::Record::manifest) return;
         const fs::path sidecar = sidecar_file(job_, bake_);
