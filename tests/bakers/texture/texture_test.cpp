@@ -387,8 +387,9 @@ TEST(Texture, MistakesAreNamed) {
     params.levels = 0;
     EXPECT_EQ(check(params, "png").front().pointer, "/levels");
     EXPECT_TRUE(check(params, "ktx2").empty());
-    EXPECT_EQ(check(defaults(), "hdr").front().pointer, "/format");
     params.levels = 1;
+    params.packing = Packing::unity;
+    EXPECT_EQ(check(params, "gltf").front().pointer, "/packing");
     params.model = Model::phong;
     params.gloss = "g.png";
     EXPECT_EQ(check(params, "png").front().pointer, "/gloss_is");
