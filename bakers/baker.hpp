@@ -53,8 +53,8 @@ struct FileQueries {
 
 /// One bake that an unsettled one stands for.
 struct Expansion {
-    Json bake;           ///< what it leaves out filled in; not checked against the schema
-    std::string suffix;  ///< of its name, "_brick"; "": the bake stands for this one alone
+    Json bake;                          ///< what it leaves out filled in; not checked against the schema
+    std::string suffix;                 ///< of its name, "_brick"; "": the bake stands for this one alone
     std::vector<std::string> warnings;  ///< what was tolerated in its source
     std::optional<Error> error;         ///< why it can't be baked
 };

@@ -46,7 +46,8 @@ class Reading {
                     origins_.empty() ? Origin{"/bakes/" + std::to_string(i), "", {}, {}} : origins_[i];
                 if (!is_sound(origin.at)) continue;
                 Bake bake = read_bake(document_["bakes"][i], origin);
-                const std::string stem = product.empty() ? bake.name : product.stem().string() + origin.suffix;
+                const std::string stem =
+                    product.empty() ? bake.name : product.stem().string() + origin.suffix;
                 bake.file = stem + "." + bake.format;
                 job.bakes.push_back(std::move(bake));
             }
@@ -110,10 +111,9 @@ class Reading {
             const std::size_t i = std::stoul(at);
             Json& bake = document_["bakes"][i];
             if (origins_[i].error) continue;
-            origins_[i].error =
-                Error(ExitCode::unreadable_input, bake.value("source", ""),
-                      "material " + shown(bake["material"]) + ": " + at.substr(at.find('/') + 1) + ": " +
-                          mistake.message);
+            origins_[i].error = Error(ExitCode::unreadable_input, bake.value("source", ""),
+                                      "material " + shown(bake["material"]) + ": " +
+                                          at.substr(at.find('/') + 1) + ": " + mistake.message);
         }
         for (std::size_t i = 0; i < origins_.size(); ++i) {
             if (!origins_[i].error) continue;

@@ -75,7 +75,7 @@ std::string Fence::find(const std::string& path) const {
         found /= entry;
     }
     return fs::is_regular_file(resolve(found.string()), error) && !refusal(found.string()) ? found.string()
-                                                                                          : "";
+                                                                                           : "";
 }
 
 }  // namespace pbrbake::job

@@ -105,9 +105,9 @@ class Mtl {
         material().lobe = MaterialLobe::blinn_phong;
         states_d_ = false;
         if (!names_.insert(material().name).second)
-            result_.diagnostics.push_back({Severity::warning, "twice", line_,
-                                           "newmtl " + parse::quoted(name) +
-                                               " is there twice; the first counts"});
+            result_.diagnostics.push_back(
+                {Severity::warning, "twice", line_,
+                 "newmtl " + parse::quoted(name) + " is there twice; the first counts"});
     }
 
     void warn(std::string code, std::string message) {

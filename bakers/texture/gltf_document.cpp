@@ -68,9 +68,10 @@ class Material {
 
     void add_factors(const Unpacked& factors) {
         const auto& [base_color, metallic, dielectric_f0] = factors.material;
-        material_["pbrMetallicRoughness"] = {{"baseColorFactor", {base_color.x, base_color.y, base_color.z, 1}},
-                                             {"metallicFactor", metallic},
-                                             {"roughnessFactor", factors.perceptual_roughness}};
+        material_["pbrMetallicRoughness"] = {
+            {"baseColorFactor", {base_color.x, base_color.y, base_color.z, 1}},
+            {"metallicFactor", metallic},
+            {"roughnessFactor", factors.perceptual_roughness}};
         add_dielectric_f0(dielectric_f0);
     }
 

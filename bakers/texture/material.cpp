@@ -111,8 +111,7 @@ Json material_json(const TextureParams& params, const Layout& layout, float spec
     json["channels"] = factors ? Json::object() : channels_json(layout);
     if (factors) json["factors"] = factors_json(*factors);
     json["surface"] = surface_json(params);
-    if (params.packing == Packing::gltf)
-        json["gltf"] = gltf_material(params, layout, specular_unit, factors);
+    if (params.packing == Packing::gltf) json["gltf"] = gltf_material(params, layout, specular_unit, factors);
     if (layout.has_residual && !factors) json["dielectric_f0_unit"] = specular_unit;
     return json;
 }

@@ -97,18 +97,19 @@ class Filling {
     std::string find(const char* field, const MaterialMap& map) const {
         const std::optional<std::string> refusal = parse::path_refusal(map.path);
         const std::string folder = folder_of(source_),
-                          inner = map.path.starts_with("./") ? map.path.substr(2) : map.path, name = map.path.substr(folder_of(map.path).size());
+                          inner = map.path.starts_with("./") ? map.path.substr(2) : map.path,
+                          name = map.path.substr(folder_of(map.path).size());
         if (!refusal)
             if (std::string path = files_.find(folder + inner); !path.empty()) return path;
         const bool is_file = !map.path.starts_with("data:") && !name.empty() && name != ".." && name != ".";
         if (is_file)
             if (std::string path = files_.find(folder + name); !path.empty()) return path;
-        throw parse::malformed(
-            source_, map.line,
-            "material \"" + material_ + "\": " + map.said + ": " +
-                (refusal ? parse::quoted(map.path) + " " + *refusal
-                         : "there is no file \"" + folder + inner + "\"") +
-                "; put the picture beside " + source_ + ", or state " + field + " (\"\" for none)");
+        throw parse::malformed(source_, map.line,
+                               "material \"" + material_ + "\": " + map.said + ": " +
+                                   (refusal ? parse::quoted(map.path) + " " + *refusal
+                                            : "there is no file \"" + folder + inner + "\"") +
+                                   "; put the picture beside " + source_ + ", or state " + field +
+                                   " (\"\" for none)");
     }
 
     Json& bake_;
@@ -172,7 +173,7 @@ void fill_specular_gloss(const LegacyMaterial& material, Filling& fill) {
     if (material.specular_factor)
         fill.set("specular_factor",
                  specular_json(*material.specular_factor, !material.specular.path.empty()));
-    fill.set("normal_green", "up");     // glTF 2.0, "Material.normalTexture"
+    fill.set("normal_green", "up");    // glTF 2.0, "Material.normalTexture"
     fill.set("colour_space", "srgb");  // the extension's word for both pictures
     if (is_high_dielectric(material)) fill.set("surface", "dielectric");
     if (fill.states_gloss()) return;
@@ -221,8 +222,7 @@ void fill_alpha(const LegacyMaterial& material, Filling& fill) {
 void fill_emission(const LegacyMaterial& material, const Json& bake, Filling& fill) {
     if (bake.value("packing", Json("gltf")) != "gltf") return;
     fill.map("emissive", material.emissive);
-    if (material.emissive_factor)
-        fill.set_vector("emissive_factor", *material.emissive_factor);
+    if (material.emissive_factor) fill.set_vector("emissive_factor", *material.emissive_factor);
 }
 
 void fill_from_material(const LegacyMaterial& material, Expansion& expansion, Filling& fill) {
@@ -273,26 +273,26 @@ void check_fields(const LegacyMaterial& material, const std::string& source) {
                                        "\", which is no field of a texture set");
 }
 
-/// Names as id Tech 4 and its kin have them: crate_d, crate_s, crate_n or crate_local. Their light is multiplied
-/// by the cosine for both terms. Exponent: 16, times the alpha of _s where it varies (Daemon engine,
-/// r_specularExponentMax). Doom 3's R_SpecularTableImage has pow(NoH, 16) beside what it really stores,
-/// (4 NoH - 3)^2 above .75: of the same energy as an exponent of 9.8, of the same variance as 13.5.
+/// Names as id Tech 4 and its kin have them: crate_d, crate_s, crate_n or crate_local. Their light is
+/// multiplied by the cosine for both terms. Exponent: 16, times the alpha of _s where it varies (Daemon
+/// engine, r_specularExponentMax). Doom 3's R_SpecularTableImage has pow(NoH, 16) beside what it really
+/// stores, (4 NoH - 3)^2 above .75: of the same energy as an exponent of 9.8, of the same variance as 13.5.
 void fill_from_names(const std::string& base, Filling& fill) {
     constexpr double kExponent = 16;
     const bool has_diffuse = fill.picture("diffuse", base, {"_d", "_diffuse", ""});
     const bool has_specular = fill.picture("specular", base, {"_s", "_specular"});
     if (!has_diffuse && !has_specular)
-        throw Error(ExitCode::unreadable_input, base,
-                    "is neither materials (.mtl, .gltf, .dae, .json) nor the base name of pictures: there is no " +
-                        base + "_d.png or _s.png; allowed: png, tga, jpg, tif, exr");
+        throw Error(
+            ExitCode::unreadable_input, base,
+            "is neither materials (.mtl, .gltf, .dae, .json) nor the base name of pictures: there is no " +
+                base + "_d.png or _s.png; allowed: png, tga, jpg, tif, exr");
     fill.picture("normal", base, {"_n", "_normal", "_local"});
     fill.picture("occlusion", base, {"_o", "_ao"});
     fill.picture("emissive", base, {"_e", "_glow"});
     fill.set("model", "blinn_phong");
     fill.set("norm", "over_pi");
     if (fill.states_gloss()) return;
-    if (fill.picture("gloss", base, {"_g", "_gloss"}))
-        return fill.set("gloss_is", "smoothness");
+    if (fill.picture("gloss", base, {"_g", "_gloss"})) return fill.set("gloss_is", "smoothness");
     fill.set("gloss_is", "power");
     fill.set("power_scale", kExponent);
     fill.set("power", kExponent);

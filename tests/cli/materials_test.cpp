@@ -96,7 +96,8 @@ TEST(Materials, WithoutPicturesAreFactors) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(gold["baseColorFactor"][i].get<double>(), base[i], 1e-4);
     EXPECT_NEAR(gold["metallicFactor"].get<double>(), 1, 1e-3);
     EXPECT_NEAR(gold["roughnessFactor"].get<double>(), .25, 1e-6);
-    EXPECT_LE(read_json(scene.path("gold.gltf.json"))["certificate"]["headline"]["value"].get<double>(), 1e-4);
+    EXPECT_LE(read_json(scene.path("gold.gltf.json"))["certificate"]["headline"]["value"].get<double>(),
+              1e-4);
 
     ASSERT_EQ(scene.bake("veil.gltf", {"--material", "veil"}).code, 0);
     const Json veil = scene.material("veil.gltf");
@@ -113,7 +114,8 @@ TEST(Materials, WithoutPicturesAreFactors) {
 TEST(Materials, SayTheirDielectricF0) {
     const auto extensions = [](const std::string& f0) {
         const Scene scene("m.json", R"({"materials": [{"name": "m", "diffuse_factor": [0.5, 0.5, 0.5],
-            "surface": "dielectric", "specular_factor": )" + f0 + "}]}");
+            "surface": "dielectric", "specular_factor": )" +
+                                        f0 + "}]}");
         const Outcome outcome = scene.bake("m.gltf");
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         return scene.material("m.gltf").value("extensions", Json::object());
@@ -190,8 +192,10 @@ TEST(Materials, NameWhatIsWrong) {
         EXPECT_FALSE(fs::exists(scene.path("out.gltf")));
         return outcome.err;
     };
-    EXPECT_THAT(refused("s.mtl", kThree, {"--material", "glod"}),
-                HasSubstr("found no material 'glod'; allowed: \"brick wall\", \"gold\", \"veil\"; did you mean \"gold\"?"));
+    EXPECT_THAT(
+        refused("s.mtl", kThree, {"--material", "glod"}),
+        HasSubstr(
+            "found no material 'glod'; allowed: \"brick wall\", \"gold\", \"veil\"; did you mean \"gold\"?"));
     EXPECT_THAT(refused("s.mtl", ""), HasSubstr("s.mtl"));
     EXPECT_THAT(refused("s.mtl", "newmtl a\nKd 1 inf 1"), HasSubstr("s.mtl:2: found 'inf' as 'kd'"));
     EXPECT_THAT(refused("s.mtl", "newmtl a\nmap_Kd ../../x.tga"), HasSubstr("leads out of the folder"));
@@ -217,8 +221,8 @@ TEST(Materials, AreHeldAgainstTheFormat) {
     EXPECT_EQ(scene.bake("out.png", {"--packing", "unity"}).code, 0);  // one texel
     outcome = scene.bake("out.gltf", {"--dry-run"});
     EXPECT_EQ(outcome.code, 0);
-    EXPECT_THAT(outcome.out, AllOf(HasSubstr("out.gltf"), HasSubstr("out.material.json"),
-                                   Not(HasSubstr("base_color"))));
+    EXPECT_THAT(outcome.out,
+                AllOf(HasSubstr("out.gltf"), HasSubstr("out.material.json"), Not(HasSubstr("base_color"))));
 }
 
 TEST(MaterialsRealFiles, Convert) {
@@ -226,15 +230,16 @@ TEST(MaterialsRealFiles, Convert) {
     if (!data) GTEST_SKIP() << "no shared data: set PBRBAKE_SHARED_DATA to its folder";
     const TemporaryFolder folder;
     const fs::path out = folder.write("x", "").parent_path();
-    for (const char* file : {"assimp/box_spaces.mtl", "assimp/regr01.mtl", "assimp/regr_3429812.mtl",
-                             "assimp/BoxTextured.gltf", "obj_mtl/box-complex-material/box-complex-material.mtl",
-                             "obj_mtl/box-complex-material-alpha/box-complex-material-alpha.mtl",
-                             "obj_mtl/box-multiple-materials/box-multiple-materials.mtl",
-                             "obj_mtl/box-texture-options/box-texture-options.mtl"}) {
+    for (const char* file :
+         {"assimp/box_spaces.mtl", "assimp/regr01.mtl", "assimp/regr_3429812.mtl", "assimp/BoxTextured.gltf",
+          "obj_mtl/box-complex-material/box-complex-material.mtl",
+          "obj_mtl/box-complex-material-alpha/box-complex-material-alpha.mtl",
+          "obj_mtl/box-multiple-materials/box-multiple-materials.mtl",
+          "obj_mtl/box-texture-options/box-texture-options.mtl"}) {
         SCOPED_TRACE(file);
         const fs::path source = fs::path(data) / "legacy" / file;
-        const Outcome outcome = run_program(
-            {"texture", "--source", source, "-o", out / (source.stem().string() + ".gltf")});
+        const Outcome outcome =
+            run_program({"texture", "--source", source, "-o", out / (source.stem().string() + ".gltf")});
         EXPECT_EQ(outcome.code, 0) << outcome.err;
     }
     const auto factor = [&](const char* file, const char* name) {
@@ -243,8 +248,8 @@ TEST(MaterialsRealFiles, Convert) {
     EXPECT_LT(factor("box-multiple-materials_Red.gltf", "metallicFactor"), .05);
     EXPECT_LT(factor("box_spaces_Floor.gltf", "metallicFactor"), .05);
     // Its pictures are another repository's: five clear errors.
-    const Outcome spider = run_program({"texture", "--source", fs::path(data) / "legacy/assimp/spider.mtl",
-                                        "-o", out / "spider.gltf"});
+    const Outcome spider = run_program(
+        {"texture", "--source", fs::path(data) / "legacy/assimp/spider.mtl", "-o", out / "spider.gltf"});
     EXPECT_EQ(spider.code, 4);
     EXPECT_THAT(spider.err, HasSubstr("spider.mtl:10: material \"Skin\": map_Kd: there is no file"));
 }

@@ -36,9 +36,10 @@ std::string codes(const std::vector<Diagnostic>& diagnostics) {
 }
 
 TEST(Mtl, ReadsFactorsAndMaps) {
-    const LegacyMaterial m = mtl(
-        "Ka 1 1 1\nKd .1 .2 .3\nks 0.5\nKe 0 .5 0\nNs 96.078431\nillum 2\n"
-        "map_Kd a.png\nMAP_KS textures\\with blanks.png\nmap_Ns n.png\nmap_d o.png\nmap_Ke e.jpg\nnorm normal.png\n");
+    const LegacyMaterial m =
+        mtl("Ka 1 1 1\nKd .1 .2 .3\nks 0.5\nKe 0 .5 0\nNs 96.078431\nillum 2\n"
+            "map_Kd a.png\nMAP_KS textures\\with blanks.png\nmap_Ns n.png\nmap_d o.png\nmap_Ke e.jpg\nnorm "
+            "normal.png\n");
     EXPECT_EQ(m.name, "m");
     EXPECT_EQ(m.lobe, MaterialLobe::blinn_phong);
     EXPECT_EQ(m.diffuse_factor, glm::dvec3(.1, .2, .3));
@@ -63,9 +64,9 @@ TEST(Mtl, KeepsWhatIsNotSaidApartFromZero) {
 }
 
 TEST(Mtl, ReadsMapOptions) {
-    const LegacyMaterial m = mtl(
-        "map_Kd -s 2 3 1 -o .25 .5 -clamp on a b.png\nmap_bump -bm -0.2 -imfchan l bump.png\n"
-        "map_Ks -odd.png\nmap_Ns -s 1 1 1 -o 0 0 0 n.png");
+    const LegacyMaterial m =
+        mtl("map_Kd -s 2 3 1 -o .25 .5 -clamp on a b.png\nmap_bump -bm -0.2 -imfchan l bump.png\n"
+            "map_Ks -odd.png\nmap_Ns -s 1 1 1 -o 0 0 0 n.png");
     EXPECT_EQ(m.diffuse.path, "a b.png");
     // u = 2 u + .25; of v up: 3 v + .5, so of v down 1 - (3 (1 - v) + .5) = 3 v - 2.5
     EXPECT_EQ(m.diffuse.transform, (UvTransform{{.25, -2.5}, {2, 3}, 0}));
@@ -172,7 +173,8 @@ TEST(GltfMaterials, RefuseWhatIsAbsentOrOutOfRange) {
     EXPECT_THAT(with("0.25, 0.125", "2, 0.125"), HasSubstr("diffuseFactor"));
     EXPECT_THAT(with("\"glossinessFactor\": 0.6", "\"glossinessFactor\": \"x\""),
                 HasSubstr("glossinessFactor"));
-    EXPECT_THAT(with("\"MASK\"", "\"GLASS\""), HasSubstr("alphaMode: found '\"GLASS\"'; allowed: \"OPAQUE\""));
+    EXPECT_THAT(with("\"MASK\"", "\"GLASS\""),
+                HasSubstr("alphaMode: found '\"GLASS\"'; allowed: \"OPAQUE\""));
     EXPECT_THAT(with("\"emissiveStrength\": 4", "\"emissiveStrength\": -4"), HasSubstr("emissiveStrength"));
     EXPECT_THAT(refusal(R"({"asset": {}, "materials": [{"name": "steel"}]})", "m.gltf"),
                 HasSubstr("they are metallic already"));
@@ -220,8 +222,8 @@ TEST(ColladaMaterials, ReadTheCommonProfile) {
 }
 
 TEST(ColladaMaterials, TurnRgbZeroRound) {
-    const std::string text =
-        replaced(replaced(kCollada, "A_ONE", "RGB_ZERO"), "<color>1 1 1 .5</color>", "<color>.5 .5 .5 1</color>");
+    const std::string text = replaced(replaced(kCollada, "A_ONE", "RGB_ZERO"), "<color>1 1 1 .5</color>",
+                                      "<color>.5 .5 .5 1</color>");
     EXPECT_EQ(read(text, "m.dae").materials.at(0).opacity_factor, .75);
 }
 
