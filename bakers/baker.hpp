@@ -9,6 +9,7 @@
 // and `check(params)`, which finds what a schema can't say. registry.cpp lists them.
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -39,6 +40,23 @@ struct Read {
     std::string colour_space = "auto";  ///< of a picture
     As as = As::picture;
     bool with_alpha = false;  ///< of a picture: keeps a fourth (or of grey, second) channel as A, as stored
+};
+
+/// What may be asked of files before a bake is settled. Paths are as in the job.
+struct FileQueries {
+    /// A file's bytes; throws Error.
+    std::function<std::string(const std::string& path)> text;
+    /// The path of a file that the job may read: as given, or else as the file is spelt that differs in the
+    /// case of letters alone (the first of several); "" where there is none.
+    std::function<std::string(const std::string& path)> find;
+};
+
+/// One bake that an unsettled one stands for.
+struct Expansion {
+    Json bake;                          ///< what it leaves out filled in; not checked against the schema
+    std::string suffix;                 ///< of its name, "_brick"; "": the bake stands for this one alone
+    std::vector<std::string> warnings;  ///< what was tolerated in its source
+    std::optional<Error> error;         ///< why it can't be baked
 };
 
 /// Decoded and colour-managed sources, by Params field.

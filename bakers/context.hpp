@@ -44,6 +44,10 @@ class Context {
     bool certify_fully() const { return certify_fully_; }
     void set_certify_fully(bool fully) { certify_fully_ = fully; }
 
+    /// The name of the product's first file, "X.png", for documents that name it; "" where none is written.
+    const std::string& product_file() const { return product_file_; }
+    void set_product_file(std::string file) { product_file_ = std::move(file); }
+
     /// Calls body(begin, end) over disjoint ranges that cover [0, count), none longer than `grain`, on the
     /// worker threads. Results must not depend on the split. Throws Cancelled when interrupted, else what a
     /// body threw first.
@@ -64,6 +68,7 @@ class Context {
     int threads_;
     Accuracy accuracy_;
     bool certify_fully_ = false;
+    std::string product_file_;
     ProgressSink sink_;
     const std::atomic<bool>* cancel_;
     std::unique_ptr<Workers> workers_;  ///< made when first needed

@@ -25,6 +25,11 @@ const Format* find_format(std::string_view name) {
     return found == formats().end() ? nullptr : &*found;
 }
 
+const Format& picture_format(std::string_view name) {
+    const Format& format = *find_format(name);
+    return format.is_document() ? *find_format("png") : format;
+}
+
 std::string_view pixel_name(PixelType pixel) {
     constexpr std::array<std::string_view, 5> kNames{"half", "float", "unorm16", "unorm8", "rgbe"};
     return kNames[static_cast<std::size_t>(pixel)];

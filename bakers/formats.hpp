@@ -28,6 +28,9 @@ std::span<const Format> formats();
 /// The format of a name, or null.
 const Format* find_format(std::string_view name);
 
+/// The format of a product's pictures: its own, or png beside a document. `name` is a format's.
+const Format& picture_format(std::string_view name);
+
 /// "half", "float", "unorm16", "unorm8", "rgbe".
 std::string_view pixel_name(PixelType pixel);
 

@@ -35,6 +35,7 @@ Baker make_baker(std::string_view kind, int algorithm_version,
             {},
             {},
             {},
+            {},
             {}};
 }
 
@@ -53,11 +54,13 @@ std::span<const Baker> bakers() {
         ies.documents = [](const Json& json) { return ies::documents(read_params<ies::IesParams>(json)); };
         Baker texture = make_baker("texture", texture::kAlgorithmVersion, texture::check, texture::reads,
                                    texture::bake, texture::certify);
+        texture.expand = texture::expand;
         texture.images = [](const Json& json) {
-            return texture::images(read_params<texture::TextureParams>(json));
+            return texture::images(read_params<texture::TextureParams>(json),
+                                   json.at("format").get<std::string>());
         };
         texture.documents = [](const Json& json) {
-            return texture::documents(read_params<texture::TextureParams>(json));
+            return texture::documents(json.at("format").get<std::string>());
         };
         Baker light = make_baker("light", light::kAlgorithmVersion, light::check, light::reads, light::bake,
                                  light::certify);

@@ -26,6 +26,10 @@ struct Baker {
     /// Files that a source names, relative to its folder: read if they are there. A file leads only into its
     /// own folder's tree.
     std::function<std::vector<Read>(const Inputs&)> follow = {};
+    /// The bakes that one stands for which names a source of several, each with its own name and what the
+    /// source says filled in; asked of bakes as the user wrote them, once the schema found them sound. Throws
+    /// Error for a source that can't be read.
+    std::function<std::vector<Expansion>(const Json& bake, const FileQueries&)> expand = {};
     /// Names of the images that a bake will write besides its first.
     std::function<std::vector<std::string>(const Json& bake)> images = {};
     /// Suffixes of the documents that a bake will write.

@@ -20,11 +20,14 @@ std::string all_lines(const std::vector<Mistake>& mistakes) {
     return joined(lines, "\n");
 }
 
+constexpr std::size_t kLongestName = 100;  ///< as the schema has it
+
 /// Reads a document that the schema may have found fault with: what is sound is still looked at.
 class Reading {
   public:
     Reading(Json document, Fence fence) : document_(std::move(document)), fence_(std::move(fence)) {
         mistakes_ = job_schema().mistakes(document_);
+        if (mistakes_.empty()) expand_bakes();
         job_schema().complete(document_);
     }
 
@@ -39,10 +42,13 @@ class Reading {
         if (is_sound("/output")) job.output = read_output();
         if (document_.contains("bakes") && document_["bakes"].is_array())
             for (std::size_t i = 0; i < document_["bakes"].size(); ++i) {
-                const std::string at = "/bakes/" + std::to_string(i);
-                if (!is_sound(at)) continue;
-                Bake bake = read_bake(document_["bakes"][i], at);
-                bake.file = product.empty() ? bake.name + "." + bake.format : product.filename().string();
+                const Origin origin =
+                    origins_.empty() ? Origin{"/bakes/" + std::to_string(i), "", {}, {}} : origins_[i];
+                if (!is_sound(origin.at)) continue;
+                Bake bake = read_bake(document_["bakes"][i], origin);
+                const std::string stem =
+                    product.empty() ? bake.name : product.stem().string() + origin.suffix;
+                bake.file = stem + "." + bake.format;
                 job.bakes.push_back(std::move(bake));
             }
         return job;
@@ -63,14 +69,81 @@ class Reading {
                });
     }
 
+    /// Which bake of the document as it was written one comes from.
+    struct Origin {
+        std::string at;      ///< its pointer
+        std::string suffix;  ///< of its name: "_brick", or "" where it stands for itself alone
+        std::vector<std::string> warnings;
+        std::optional<Error> error;
+    };
+
+    /// Puts in the place of each bake those that it stands for, as if the job had stated them.
+    void expand_bakes() {
+        const Json given = std::move(document_["bakes"]);
+        document_["bakes"] = Json::array();
+        for (std::size_t i = 0; i < given.size(); ++i)
+            for (Expansion& expansion : expansions(given[i])) {
+                const std::string name = given[i]["name"];
+                expansion.bake["name"] =
+                    name.substr(0, kLongestName - std::min(kLongestName, expansion.suffix.size())) +
+                    expansion.suffix;
+                origins_.push_back({"/bakes/" + std::to_string(i), std::move(expansion.suffix),
+                                    std::move(expansion.warnings), std::move(expansion.error)});
+                document_["bakes"].push_back(std::move(expansion.bake));
+            }
+        refuse_fields_of_sources(given);
+    }
+
+    std::vector<Expansion> expansions(const Json& bake) const {
+        const Baker& baker = *find_baker(bake["kind"].get_ref<const std::string&>());
+        if (!baker.expand) return {{bake, "", {}, {}}};
+        try {
+            return baker.expand(bake, file_queries());
+        } catch (const Error& error) {
+            return {{bake, "", {}, error}};
+        }
+    }
+
+    /// What a source says is held against the schema as what a job says is, but it is the source's mistake.
+    void refuse_fields_of_sources(const Json& given) {
+        for (const Mistake& mistake : job_schema().mistakes(document_)) {
+            const std::string at = mistake.pointer.substr(std::string_view("/bakes/").size());
+            const std::size_t i = std::stoul(at);
+            Json& bake = document_["bakes"][i];
+            if (origins_[i].error) continue;
+            origins_[i].error = Error(ExitCode::unreadable_input, bake.value("source", ""),
+                                      "material " + shown(bake["material"]) + ": " +
+                                          at.substr(at.find('/') + 1) + ": " + mistake.message);
+        }
+        for (std::size_t i = 0; i < origins_.size(); ++i) {
+            if (!origins_[i].error) continue;
+            Json& bake = document_["bakes"][i];
+            const Json name = bake["name"];
+            bake = given[std::stoul(origins_[i].at.substr(std::string_view("/bakes/").size()))];
+            bake["name"] = name;
+        }
+    }
+
+    FileQueries file_queries() const {
+        return {[this](const std::string& path) {
+                    if (const auto refusal = fence_.refusal(path))
+                        throw Error(ExitCode::unreadable_input, path, *refusal);
+                    return read_text(fence_.resolve(path));
+                },
+                [this](const std::string& path) { return fence_.find(path); }};
+    }
+
     fs::path read_output() {
         const std::string output = document_["output"].get<std::string>();
         if (const auto refusal = fence_.refusal(output)) add("/output", shown(output) + " " + *refusal);
         return fence_.resolve(output);
     }
 
-    Bake read_bake(Json& json, const std::string& at) {
+    Bake read_bake(Json& json, const Origin& origin) {
+        const std::string& at = origin.at;
         Bake bake;
+        bake.warnings = origin.warnings;
+        bake.error = origin.error;
         bake.kind = json["kind"].get<std::string>();
         bake.name = json["name"].get<std::string>();
         bake.format = json["format"].get<std::string>();
@@ -79,12 +152,18 @@ class Reading {
         bake.baker = find_baker(bake.kind);
         read_accuracy(json, at, bake);
         check_name(bake.name, at);
-        for (const Mistake& mistake : bake.baker->check(json)) add(at + mistake.pointer, mistake.message);
+        if (!bake.error)
+            for (const Mistake& mistake : bake.baker->check(json)) add(at + mistake.pointer, mistake.message);
         bake.json = json;
         bake.params = json;
         bake.params.erase("kind");
         bake.params.erase("name");
-        for (const Read& read : bake.baker->reads(json)) read_source(read, at, bake);
+        if (!bake.error)
+            for (const Read& read : bake.baker->reads(json)) read_source(read, at, bake);
+        if (bake.baker->expand) {  // a base name is no file that is read
+            const fs::path source(bake.params["source"].get<std::string>());
+            if (source.is_absolute()) bake.params["source"] = source.filename().string();
+        }
         return bake;
     }
 
@@ -151,6 +230,7 @@ class Reading {
     Fence fence_;
     std::vector<Mistake> mistakes_;
     std::map<std::string, std::string> names_;  ///< name -> pointer of its bake
+    std::vector<Origin> origins_;               ///< of each bake; none where the document isn't sound
 };
 
 std::vector<fs::path> declared_roots(const Json& document) {
@@ -207,8 +287,8 @@ std::vector<Mistake> overwrites(const Job& job) {
 }  // namespace
 
 std::string image_file(const Bake& bake, const std::string& image) {
-    const fs::path first(bake.file);
-    return first.stem().string() + "_" + image + first.extension().string();
+    std::string file = fs::path(bake.file).stem().string();
+    return file.append("_").append(image).append(".").append(picture_format(bake.format).name);
 }
 
 JobError::JobError(ExitCode code, std::vector<Mistake> mistakes)

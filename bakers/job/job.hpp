@@ -5,6 +5,7 @@
 // named (a JSON pointer, or a flag) and whether paths are trusted.
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,9 +35,11 @@ struct Bake {
     Json json;    ///< what the baker reads: every property, defaults filled in
     Json params;  ///< the same as manifests show it: without kind and name, and without absolute paths
     std::vector<Source> sources;
+    std::vector<std::string> warnings;  ///< of the source that filled it in
+    std::optional<Error> error;         ///< why it fails though the job is sound: a source can't be read
 };
 
-/// "X_normal.png" for image "normal" of a bake whose first file is X.png.
+/// "X_normal.png" for image "normal" of a bake whose first file is X.png or the document X.gltf.
 std::string image_file(const Bake& bake, const std::string& image);
 
 /// Where the record of what was baked goes.

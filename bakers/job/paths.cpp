@@ -21,6 +21,23 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
     return end == folder.end() || (std::next(end) == folder.end() && end->empty());  // a trailing slash
 }
 
+std::string lower_case(std::string text) {
+    for (char& letter : text)
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    return text;
+}
+
+/// The entry of a folder that `name` is but for the case of its letters, or "".
+std::string nearest_entry(const fs::path& folder, const std::string& name) {
+    std::string best;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string found = entry->path().filename().string();
+        if (lower_case(found) == lower_case(name) && (best.empty() || found < best)) best = found;
+    }
+    return best;
+}
+
 }  // namespace
 
 Fence::Fence(fs::path folder, const std::vector<fs::path>& roots)
@@ -41,6 +58,24 @@ std::optional<std::string> Fence::refusal(const std::string& path) const {
     if (std::any_of(allowed_.begin(), allowed_.end(), inside)) return std::nullopt;
     return "leads outside the job file's folder, to " + real.string() +
            "; allowed: that folder and its roots (add one to \"roots\", or with --root DIR)";
+}
+
+std::string Fence::find(const std::string& path) const {
+    fs::path found;
+    std::error_code error;
+    for (const fs::path& part : fs::path(path)) {
+        const fs::path exact = found / part;
+        if (refusal(exact.string())) return "";
+        if (fs::exists(resolve(exact.string()), error)) {
+            found = exact;
+            continue;
+        }
+        const std::string entry = nearest_entry(resolve(found.string()), part.string());
+        if (entry.empty()) return "";
+        found /= entry;
+    }
+    return fs::is_regular_file(resolve(found.string()), error) && !refusal(found.string()) ? found.string()
+                                                                                           : "";
 }
 
 }  // namespace pbrbake::job

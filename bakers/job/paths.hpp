@@ -21,6 +21,9 @@ class Fence {
     }
     /// Why a path is refused, in words; nothing if it is allowed.
     std::optional<std::string> refusal(const std::string& path) const;
+    /// The path of a file that is allowed: as given, or else as it is spelt on disk where the case of letters
+    /// differs (the first such name in byte order); "" where there is none.
+    std::string find(const std::string& path) const;
 
   private:
     Fence() = default;

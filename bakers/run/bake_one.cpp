@@ -39,7 +39,7 @@ PixelType pixel_of(const Product& product, const job::Bake& bake) {
 Product baked(const job::Bake& bake, const Inputs& inputs, Context& context) {
     Product product = bake.baker->run(bake.json, inputs, context);
     // A baker's own choice gives way to a pixel type that the job states, and to what its format holds.
-    const Format& format = *find_format(bake.format);
+    const Format& format = picture_format(bake.format);
     if (product.pixel &&
         (bake.pixel_stated || std::ranges::find(format.pixels, *product.pixel) == format.pixels.end()))
         product.pixel.reset();
@@ -78,6 +78,7 @@ class BakeRun {
 
   private:
     void run_stages() {
+        if (bake_.error) throw *bake_.error;
         timed(Stage::decode, [&] { decode(); });
         timed(Stage::bake, [&] { bake(); });
         if (bake_.certify != job::Certify::none) timed(Stage::certify, [&] { certify(); });
@@ -108,7 +109,10 @@ class BakeRun {
             sink = [observer = options_.observer, stage](double fraction) {
                 observer->progress(stage, fraction);
             };
-        return std::make_unique<Context>(options_.threads, bake_.accuracy, std::move(sink), options_.cancel);
+        auto context =
+            std::make_unique<Context>(options_.threads, bake_.accuracy, std::move(sink), options_.cancel);
+        context->set_product_file(bake_.file);
+        return context;
     }
 
     void decode() {
@@ -203,13 +207,14 @@ class BakeRun {
     void encode() {
         const io::FileInfo info{pixel(), metadata(job_, bake_, product_), bake_.name};
         for (Image& image : product_.images) {
-            const fs::path file = files_.empty() ? fs::path(bake_.file) : named_file(image.name);
-            std::vector<std::byte> bytes = io::encode(bake_.format, image, info);
+            const bool is_first = files_.empty() && !find_format(bake_.format)->is_document();
+            const fs::path file = is_first ? fs::path(bake_.file) : named_file(image.name);
+            std::vector<std::byte> bytes = io::encode(picture_format(bake_.format).name, image, info);
             outputs_.push_back({file, io::hash_bytes(bytes.data(), bytes.size()), bytes.size()});
             files_.push_back(std::move(bytes));
             for (Level& level : image.levels) level.texels = {};
         }
-        // A product without images is the document of its format; the main file comes first.
+        // Pictures come before documents, and of these the main file first.
         std::stable_partition(product_.documents.begin(), product_.documents.end(),
                               [&](const Document& document) { return is_main(document.suffix); });
         for (const Document& document : product_.documents) add_document(document);
@@ -246,7 +251,8 @@ class BakeRun {
         for (std::size_t i = 0; i < files_.size(); ++i) {
             const fs::path file = job_.output / outputs_[i].file;
             write_atomically(file, files_[i]);
-            report_.writes.push_back(file);
+            const bool is_first = outputs_[i].file == bake_.file;
+            report_.writes.insert(is_first ? report_.writes.begin() : report_.writes.end(), file);
         }
         if (job_.record == job::Record::manifest) return;
         const fs::path sidecar = sidecar_file(job_, bake_);
@@ -288,6 +294,7 @@ BakeReport plan_bake(const job::Job& job, const job::Bake& bake) {
     BakeReport report;
     report.job = &job;
     report.bake = &bake;
+    report.warnings = bake.warnings;
     for (const job::Source& source : bake.sources)
         if (!source.file.empty()) report.reads.push_back(source.file);
     report.writes.push_back((job.output / bake.file).lexically_normal());

@@ -53,7 +53,7 @@ bool run_job(const job::Job& job, const Options& options, RunReport& report) {
         const bool wanted = options.only.empty() || std::find(options.only.begin(), options.only.end(),
                                                               bake.name) != options.only.end();
         if (!wanted || interrupted) continue;
-        if (options.dry_run) {
+        if (options.dry_run && !bake.error) {
             report.bakes.push_back(plan_bake(job, bake));
             continue;
         }

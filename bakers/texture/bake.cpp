@@ -2,9 +2,11 @@
 #include <cmath>
 
 #include "bakers/formats.hpp"
+#include "bakers/parse/materials.hpp"
 #include "bakers/texture/chain.hpp"
 #include "bakers/texture/convert.hpp"
 #include "bakers/texture/difference.hpp"
+#include "bakers/texture/gltf_document.hpp"
 #include "bakers/texture/material.hpp"
 #include "bakers/texture/pack.hpp"
 #include "pbr/numerics/sequence.hpp"
@@ -13,6 +15,15 @@ namespace pbrbake::texture {
 namespace {
 
 using Materials = std::vector<pbr::MetallicMaterial<float>>;
+
+constexpr std::string_view kGltfEnd = ".gltf";
+
+/// Whether a set is more than factors, its only texel.
+bool has_pictures(const TextureParams& params) {
+    const std::array pictures{&params.diffuse,   &params.specular, &params.gloss,   &params.normal,
+                              &params.occlusion, &params.opacity,  &params.emissive};
+    return std::ranges::any_of(pictures, [](const std::string* path) { return !path->empty(); });
+}
 
 Image named_image(const PackedImage& packed) {
     static const std::array<const char*, 4> kNames{"R", "G", "B", "A"};
@@ -86,7 +97,7 @@ class SetBake {
         : sources_(sources),
           params_(sources.params()),
           context_(context),
-          layout_(layout_of(params_, sources.has_opacity())),
+          layout_(layout_of(sources)),
           survey_(survey(sources, context)),
           findings_(static_cast<std::size_t>(sources.height())),
           largest_f0_(static_cast<std::size_t>(sources.height())) {
@@ -117,12 +128,27 @@ class SetBake {
                             &total.confidence})
             *sum /= texels;
         product.properties["set"] = properties_json(params_, layout_, survey_, total, sources_, unit);
-        product.documents.push_back({"material.json", material_json(params_, layout_, unit), ""});
+        add_documents(unit, product);
         warn(sources_, survey_, total, product);
         return product;
     }
 
   private:
+    void add_documents(float unit, Product& product) const {
+        const bool is_gltf = context_.product_file().ends_with(kGltfEnd);
+        std::optional<Unpacked> factors;
+        if (is_gltf && !has_pictures(params_)) {
+            factors = unpack(params_, layout_, product.images, 0, 0, unit, 1);
+            product.properties["set"]["factors"] = factors_json(*factors);
+            product.images.clear();
+        }
+        Json material = material_json(params_, layout_, unit, factors);
+        if (is_gltf)
+            product.documents.push_back(
+                {"gltf", gltf_document(params_, material["gltf"], context_.product_file()), ""});
+        product.documents.push_back({"material.json", std::move(material), ""});
+    }
+
     static Level empty_level(int width, int height, const PackedImage& image) {
         const std::size_t texels = static_cast<std::size_t>(width) * height;
         return {width, height, std::vector<float>(texels * image.channels.size())};
@@ -144,6 +170,7 @@ class SetBake {
             if (sources_.has_normal()) maps.normal.resize(1);
             if (sources_.has_occlusion()) maps.occlusion.resize(1);
             if (sources_.has_opacity()) maps.opacity.resize(1);
+            if (sources_.has_emissive()) maps.emissive.resize(1);
             next_ = level_below(maps, height);
         } else {
             next_.height = std::max(1, height / 2);
@@ -236,15 +263,20 @@ class SetBake {
 
 std::vector<Mistake> check(const TextureParams& params, const std::string& format) {
     std::vector<Mistake> mistakes;
-    if (params.diffuse.empty() && params.specular.empty())
-        mistakes.push_back({"/diffuse", "missing, and specular too; a set has one of them at least"});
+    if (params.source.empty() && params.diffuse.empty() && params.specular.empty())
+        mistakes.push_back(
+            {"/diffuse", "missing, and specular too; a set has one of them at least, or a source"});
+    if (params.source.empty() && !params.material.empty())
+        mistakes.push_back({"/material", "needs the source that it is in"});
+    if (format == "gltf" && params.packing != Packing::gltf)
+        mistakes.push_back({"/packing", "found \"" + std::string(enum_name(params.packing)) +
+                                            "\"; allowed with format gltf: \"gltf\""});
+    if (params.packing != Packing::gltf && !params.emissive.empty())
+        mistakes.push_back({"/emissive", "is written with packing gltf alone; allowed: \"\""});
     const Format* container = find_format(format);
     if (container && !container->is_chain && params.levels != 1)
         mistakes.push_back({"/levels", "found " + std::to_string(params.levels) + ", but " + format +
                                            " holds one level; allowed: 1, or format exr, ktx2, dds"});
-    if (container && container->max_channels < 4)
-        mistakes.push_back(
-            {"/format", "found \"" + format + "\"; allowed for texture sets: exr, ktx2, dds, png"});
     if (params.gloss_is == GlossIs::automatic && !params.gloss.empty() &&
         params.model != Model::specular_gloss)
         mistakes.push_back(
@@ -264,18 +296,25 @@ std::vector<Read> reads(const TextureParams& params) {
     add("normal", params.normal, "raw");
     add("occlusion", params.occlusion, "raw");
     add("opacity", params.opacity, "raw");
+    add("emissive", params.emissive, params.colour_space);
+    if (parse::has_material_extension(params.source))
+        list.push_back({"source", params.source, "auto", Read::As::text, false});
     return list;
 }
 
-std::vector<std::string> images(const TextureParams& params) {
+std::vector<std::string> images(const TextureParams& params, const std::string& format) {
     std::vector<std::string> names;
-    for (const PackedImage& image : layout_of(params, false).images) names.push_back(image.name);
-    names.erase(names.begin());
+    if (format == "gltf" && !has_pictures(params)) return names;
+    names = image_names(params);
+    if (format != "gltf") names.erase(names.begin());
     for (const ExtraMap map : params.maps) names.emplace_back(enum_name(map));
     return names;
 }
 
-std::vector<std::string> documents(const TextureParams&) { return {"material.json"}; }
+std::vector<std::string> documents(const std::string& format) {
+    if (format == "gltf") return {"gltf", "material.json"};
+    return {"material.json"};
+}
 
 Product bake(const TextureParams& params, const Inputs& inputs, Context& context) {
     const Sources sources(params, inputs);

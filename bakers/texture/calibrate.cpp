@@ -150,7 +150,8 @@ std::string_view kind_name(Calibration::Kind kind) {
 
 Calibration find_calibration(const Sources& sources, Context& context) {
     const TextureParams& params = sources.params();
-    const SurfaceWord* word = surface_word(params.diffuse.empty() ? params.specular : params.diffuse);
+    const SurfaceWord* word = surface_word(params.material);
+    if (!word) word = surface_word(params.diffuse.empty() ? params.specular : params.diffuse);
     const bool is_legacy = params.model != Model::specular_gloss;
     const bool wanted =
         params.calibrate == Calibrate::library || (params.calibrate == Calibrate::automatic && is_legacy);

@@ -5,6 +5,7 @@
 
 #include "bakers/texture/calibrate.hpp"
 #include "bakers/texture/difference.hpp"
+#include "bakers/texture/material.hpp"
 #include "bakers/texture/pack.hpp"
 #include "pbr/numerics/sequence.hpp"
 
@@ -76,8 +77,10 @@ class Comparer {
     Comparer(const Sources& sources, const Product& product, Context& context)
         : sources_(sources),
           product_(product),
-          layout_(layout_of(sources.params(), sources.has_opacity())),
-          unit_(layout_.has_residual ? product.properties["set"]["dielectric_f0_unit"].get<float>() : 1),
+          layout_(layout_of(sources)),
+          unit_(product.properties["set"].contains("dielectric_f0_unit")
+                    ? product.properties["set"]["dielectric_f0_unit"].get<float>()
+                    : 1),
           calibration_(find_calibration(sources, context)),
           scattering_(sources.params().multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single) {}
 
@@ -86,8 +89,9 @@ class Comparer {
     Comparison operator()(std::uint64_t texel) const {
         const auto width = static_cast<std::uint64_t>(sources_.width());
         const auto x = static_cast<int>(texel % width), y = static_cast<int>(texel / width);
-        const Unpacked stored =
-            unpack(sources_.params(), layout_, product_.images, x, y, unit_, product_.scale);
+        const Unpacked stored = product_.images.empty() ? factors_from(product_.properties["set"]["factors"])
+                                                        : unpack(sources_.params(), layout_, product_.images,
+                                                                 x, y, unit_, product_.scale);
         const auto after = pbr::reflected_from_metallic(stored.material, layout_.coupling);
         const LegacyTexel legacy = sources_.texel(x, y);
         const pbr::Reflected<float> before = calibration_(legacy.reflected);

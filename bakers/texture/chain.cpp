@@ -31,7 +31,7 @@ Cover cover(int index, int small, int large) {
 }
 
 struct Sums {
-    Colour diffuse{0}, f0{0};
+    Colour diffuse{0}, f0{0}, emissive{0};
     float metallic = 0, occlusion = 0, opacity = 0;
     pbr::SlopeMoments<float> slopes;
 
@@ -41,6 +41,7 @@ struct Sums {
         metallic += share * level.metallic[i];
         if (!level.occlusion.empty()) occlusion += share * level.occlusion[i];
         if (!level.opacity.empty()) opacity += share * level.opacity[i];
+        if (!level.emissive.empty()) emissive += share * level.emissive[i];
         slopes.add(level.normal.empty() ? Colour(0, 0, 1) : level.normal[i],
                    pbr::alpha_from_perceptual_roughness(level.perceptual_roughness[i]), share);
     }
@@ -53,6 +54,7 @@ struct Sums {
         if (!level.normal.empty()) level.normal[i] = slopes.normal();
         if (!level.occlusion.empty()) level.occlusion[i] = occlusion;
         if (!level.opacity.empty()) level.opacity[i] = opacity;
+        if (!level.emissive.empty()) level.emissive[i] = emissive;
     }
 };
 
@@ -69,6 +71,7 @@ MapLevel level_below(const MapLevel& level, int height) {
     if (!level.normal.empty()) next.normal.resize(next.texels());
     if (!level.occlusion.empty()) next.occlusion.resize(next.texels());
     if (!level.opacity.empty()) next.opacity.resize(next.texels());
+    if (!level.emissive.empty()) next.emissive.resize(next.texels());
     return next;
 }
 

@@ -40,6 +40,7 @@ Converter::Converter(const Sources& sources, const Survey& survey, int most_rows
     if (sources.has_normal()) level.normal.resize(texels);
     if (sources.has_occlusion()) level.occlusion.resize(texels);
     if (sources.has_opacity()) level.opacity.resize(texels);
+    if (sources.has_emissive()) level.emissive.resize(texels);
     rows_.confidence.resize(texels);
     rows_.tolerance.resize(texels);
 }
@@ -106,6 +107,7 @@ void Converter::read_own(int x, int y, const LegacyTexel& texel, const pbr::Refl
     }
     if (sources_.has_occlusion()) level.occlusion[i] = sources_.occlusion(x, y);
     if (sources_.has_opacity()) level.opacity[i] = sources_.opacity(x, y);
+    if (sources_.has_emissive()) level.emissive[i] = sources_.emissive(x, y);
 }
 
 }  // namespace pbrbake::texture

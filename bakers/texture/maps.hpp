@@ -31,6 +31,7 @@ struct MapLevel {
     std::vector<Colour> diffuse, f0;
     std::vector<float> metallic, perceptual_roughness;
     std::vector<Colour> normal;             ///< y up; empty without a normal map
+    std::vector<Colour> emissive;           ///< empty without a map
     std::vector<float> occlusion, opacity;  ///< empty without a map
     std::size_t texels() const { return static_cast<std::size_t>(width) * height; }
 };
@@ -65,13 +66,18 @@ class Sources {
     Colour normal(int x, int y) const;  ///< y as stored
     float occlusion(int x, int y) const;
     float opacity(int x, int y) const;
+    Colour emissive(int x, int y) const;
     /// The exponent that gloss stands for, where gloss_is says it holds one; else < 0. Needs has_gloss().
     float exponent_at(int x, int y) const;
     bool has_normal() const { return normal_.image != nullptr; }
     bool has_occlusion() const { return occlusion_.image != nullptr; }
     bool has_opacity() const { return opacity_.image != nullptr; }
     bool has_gloss() const { return gloss_.image != nullptr; }
-    bool has_specular() const { return specular_.image != nullptr; }
+    bool has_emissive() const { return emissive_.image != nullptr; }
+    /// Whether the set says what it reflects: a map, or a factor.
+    bool has_specular() const {
+        return specular_.image || params_.specular_factor != std::vector<double>{1, 1, 1};
+    }
     pbr::DiffuseCoupling coupling() const { return coupling_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -84,6 +90,7 @@ class Sources {
         bool is_srgb = false;
     };
     void fetch(const Map& map, int x, int y, float* values, int count) const;
+    void choose_normal();
     void choose_gloss();
     void choose_opacity();
     void tabulate_gloss();
@@ -96,15 +103,16 @@ class Sources {
         float mean = 0;             ///< albedo of the legacy lobe
         pbr::MeanAlbedo ggx{0, 0};  ///< of the PBR lobe
     };
-    bool has_legacy_lobe() const { return params_.model != Model::specular_gloss && specular_.image; }
+    bool has_legacy_lobe() const { return params_.model != Model::specular_gloss && has_specular(); }
     Lobe lobe_of(float gloss) const;
     Lobe lobe_at(int x, int y) const;
     Map map_of(const std::string& field, int channel) const;
 
     const TextureParams& params_;
     const Inputs& inputs_;
-    int width_ = 0, height_ = 0;
-    Map diffuse_, specular_, gloss_, normal_, occlusion_, opacity_;
+    int width_ = 1, height_ = 1;  ///< of factors alone
+    Map diffuse_, specular_, gloss_, normal_, occlusion_, opacity_, emissive_;
+    bool is_gloss_constant_ = false;  ///< gloss_factor everywhere
     pbr::DiffuseCoupling coupling_;
     std::vector<Lobe> lobes_;  ///< of the codes of an 8-bit gloss map, or the one lobe without a map
     std::vector<std::string> warnings_;

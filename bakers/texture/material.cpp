@@ -2,10 +2,12 @@
 
 #include <array>
 
+#include "bakers/texture/gltf_document.hpp"
+
 namespace pbrbake::texture {
 namespace {
 
-constexpr std::array<std::string_view, 19> kHeldNames{"0",
+constexpr std::array<std::string_view, 22> kHeldNames{"0",
                                                       "1",
                                                       "base_color.r",
                                                       "base_color.g",
@@ -23,7 +25,10 @@ constexpr std::array<std::string_view, 19> kHeldNames{"0",
                                                       "normal.z",
                                                       "dielectric_f0.r",
                                                       "dielectric_f0.g",
-                                                      "dielectric_f0.b"};
+                                                      "dielectric_f0.b",
+                                                      "emissive.r",
+                                                      "emissive.g",
+                                                      "emissive.b"};
 
 Json channels_json(const Layout& layout) {
     Json images = Json::object();
@@ -35,29 +40,19 @@ Json channels_json(const Layout& layout) {
     return images;
 }
 
-/// glTF 2.0, "Material"; KHR_materials_specular, whose f0 is (ior's .04) specularColorFactor
-/// specularColorTexture.
-Json gltf_material(const Layout& layout, float specular_unit) {
-    Json material, images = Json::array();
-    const auto texture = [&](const char* name) {
-        Json info;
-        for (std::size_t i = 0; i < layout.images.size(); ++i)
-            if (layout.images[i].name == name) info["index"] = i;
-        return info;
-    };
-    for (const PackedImage& image : layout.images) images.push_back(image.name);
-    material["pbrMetallicRoughness"] = {{"baseColorTexture", texture("base_color")},
-                                        {"metallicRoughnessTexture", texture("orm")}};
-    material["occlusionTexture"] = texture("orm");
-    if (const Json normal = texture("normal"); !normal.is_null()) material["normalTexture"] = normal;
-    if (layout.images.front().channels.size() == 4) material["alphaMode"] = "BLEND";
-    if (layout.has_residual) {
-        constexpr double kGltfF0 = .04;
-        const double factor = static_cast<double>(specular_unit) / kGltfF0;
-        material["extensions"]["KHR_materials_specular"] = {{"specularColorFactor", {factor, factor, factor}},
-                                                            {"specularColorTexture", texture("specular")}};
-    }
-    return {{"images", std::move(images)}, {"material", std::move(material)}};
+/// What the renderer applies, and no picture holds.
+Json surface_json(const TextureParams& params) {
+    return {{"alpha_mode", enum_name(params.alpha_mode)},
+            {"alpha_cutoff", params.alpha_cutoff},
+            {"opacity_factor", params.opacity_factor},
+            {"emissive_factor", params.emissive_factor},
+            {"normal_scale", params.normal_scale},
+            {"occlusion_strength", params.occlusion_strength},
+            {"double_sided", params.double_sided},
+            {"wrap", enum_name(params.wrap)},
+            {"uv_offset", params.uv_offset},
+            {"uv_scale", params.uv_scale},
+            {"uv_rotation", params.uv_rotation}};
 }
 
 }  // namespace
@@ -93,10 +88,31 @@ Json properties_json(const TextureParams& params, const Layout& layout, const Su
     return json;
 }
 
-Json material_json(const TextureParams& params, const Layout& layout, float specular_unit) {
-    Json json{{"packing", enum_name(params.packing)}, {"channels", channels_json(layout)}};
-    if (params.packing == Packing::gltf) json["gltf"] = gltf_material(layout, specular_unit);
-    if (layout.has_residual) json["dielectric_f0_unit"] = specular_unit;
+Json factors_json(const Unpacked& factors) {
+    const auto& [base, metallic, f0] = factors.material;
+    return {{"base_color", {base.x, base.y, base.z}},
+            {"metallic", metallic},
+            {"perceptual_roughness", factors.perceptual_roughness},
+            {"dielectric_f0", {f0.x, f0.y, f0.z}}};
+}
+
+Unpacked factors_from(const Json& json) {
+    const auto colour = [](const Json& list) {
+        return Colour(list[0].get<float>(), list[1].get<float>(), list[2].get<float>());
+    };
+    return {{colour(json["base_color"]), json["metallic"].get<float>(), colour(json["dielectric_f0"])},
+            json["perceptual_roughness"].get<float>()};
+}
+
+Json material_json(const TextureParams& params, const Layout& layout, float specular_unit,
+                   const std::optional<Unpacked>& factors) {
+    Json json{{"version", 1}, {"packing", enum_name(params.packing)}};
+    if (!params.material.empty()) json["name"] = params.material;
+    json["channels"] = factors ? Json::object() : channels_json(layout);
+    if (factors) json["factors"] = factors_json(*factors);
+    json["surface"] = surface_json(params);
+    if (params.packing == Packing::gltf) json["gltf"] = gltf_material(params, layout, specular_unit, factors);
+    if (layout.has_residual && !factors) json["dielectric_f0_unit"] = specular_unit;
     return json;
 }
 

@@ -10,8 +10,13 @@ namespace pbrbake::texture {
 Json properties_json(const TextureParams& params, const Layout& layout, const Survey& survey,
                      const Findings& findings, const Sources& sources, float specular_unit);
 
-/// NAME.material.json: a glTF material for packing gltf (its texture indices are those of "images"), else a
-/// list of what each channel holds.
-Json material_json(const TextureParams& params, const Layout& layout, float specular_unit);
+/// NAME.material.json, schemas/material.schema.json: what each channel holds, or the factors of a set without
+/// pictures; what the renderer applies besides; and with packing gltf the glTF material.
+Json material_json(const TextureParams& params, const Layout& layout, float specular_unit,
+                   const std::optional<Unpacked>& factors);
+
+/// "factors" of a record, and back.
+Json factors_json(const Unpacked& factors);
+Unpacked factors_from(const Json& json);
 
 }  // namespace pbrbake::texture

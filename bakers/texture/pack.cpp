@@ -57,6 +57,10 @@ float encoded(Held held, const MapLevel& level, const pbr::MetallicMaterial<floa
             return std::min(1.f,
                             material.dielectric_f0[static_cast<int>(held) - static_cast<int>(dielectric_r)] /
                                 specular_unit);
+        case emissive_r:
+        case emissive_g:
+        case emissive_b:
+            return level.emissive[i][static_cast<int>(held) - static_cast<int>(emissive_r)];
     }
     return 0;
 }
@@ -94,9 +98,7 @@ void decode(Held held, float value, float specular_unit, Unpacked& result) {
     }
 }
 
-}  // namespace
-
-Layout layout_of(const TextureParams& params, bool has_opacity) {
+Layout make_layout(const TextureParams& params, bool has_normal, bool has_opacity) {
     Layout layout;
     layout.images.push_back(base_image(has_opacity));
     const auto add = [&](std::string name, std::vector<Held> channels, bool is_colour = false) {
@@ -128,10 +130,25 @@ Layout layout_of(const TextureParams& params, bool has_opacity) {
             if (!params.occlusion.empty()) add("occlusion", {occlusion});
             break;
     }
-    if (!params.normal.empty()) add("normal", {normal_x, down ? normal_y_down : normal_y, normal_z});
+    if (has_normal) add("normal", {normal_x, down ? normal_y_down : normal_y, normal_z});
     layout.has_residual = params.packing == Packing::gltf && params.residual;
     if (layout.has_residual) add("specular", {dielectric_r, dielectric_g, dielectric_b}, true);
+    if (params.packing == Packing::gltf && !params.emissive.empty())
+        add("emissive", {emissive_r, emissive_g, emissive_b}, true);
     return layout;
+}
+
+}  // namespace
+
+Layout layout_of(const Sources& sources) {
+    return make_layout(sources.params(), sources.has_normal(), sources.has_opacity());
+}
+
+std::vector<std::string> image_names(const TextureParams& params) {
+    std::vector<std::string> names;
+    for (const PackedImage& image : make_layout(params, !params.normal.empty(), false).images)
+        names.push_back(image.name);
+    return names;
 }
 
 pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,

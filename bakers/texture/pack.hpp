@@ -26,6 +26,9 @@ enum class Held {
     dielectric_r,  ///< dielectric f0 over Layout::specular_unit
     dielectric_g,
     dielectric_b,
+    emissive_r,
+    emissive_g,
+    emissive_b,
 };
 
 struct PackedImage {
@@ -42,8 +45,10 @@ struct Layout {
     float largest_f0 = 0;  ///< of its grey dielectric f0; 0: fixed at the job's dielectric_f0
 };
 
-/// The layout of a set; the names of its images don't depend on `has_opacity`.
-Layout layout_of(const TextureParams& params, bool has_opacity);
+/// The layout of a set.
+Layout layout_of(const Sources& sources);
+/// Names of the images that a set may have, before its pictures are known.
+std::vector<std::string> image_names(const TextureParams& params);
 
 /// The material that a texel of a level becomes in the layout.
 pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,

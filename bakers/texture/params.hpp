@@ -14,7 +14,7 @@ enum class Model { specular_gloss, blinn_phong, phong };
 enum class Coupling { automatic, none, fresnel };
 enum class Norm { energy, n_plus_8, none, over_pi };
 enum class Fit { slope, l2, cumulative, half_width };
-enum class GlossIn { automatic, gloss, specular_alpha, diffuse_alpha, normal_alpha };
+enum class GlossIn { automatic, gloss, specular_alpha, diffuse_alpha, normal_alpha, constant };
 enum class GlossIs { automatic, smoothness, perceptual_roughness, alpha, power, power_log2 };
 enum class Green { automatic, up, down };
 enum class AlphaIs { automatic, opacity, nothing };
@@ -22,10 +22,12 @@ enum class SurfaceIs { automatic, any, dielectric, metal };
 enum class Calibrate { automatic, none, library };
 enum class Packing { gltf, unity, unreal, frostbite, separate };
 enum class Wrap { repeat, clamp };
+enum class AlphaMode { automatic, opaque, mask, blend };
 enum class ExtraMap { confidence, difference };
 
 struct TextureParams {
-    std::string diffuse, specular, gloss, normal, occlusion, opacity;  ///< paths; "": none
+    std::string source, material;  ///< what filled in the other fields, if anything did
+    std::string diffuse, specular, gloss, normal, occlusion, opacity, emissive;  ///< paths; "": none
     std::string colour_space;
     Model model;
     Coupling diffuse_coupling;
@@ -36,7 +38,14 @@ struct TextureParams {
     double power_scale;
     double power;  ///< 0: none
     std::vector<double> diffuse_factor, specular_factor;
-    double gloss_factor;
+    double gloss_factor, opacity_factor;
+    std::vector<double> emissive_factor;
+    double normal_scale, occlusion_strength;
+    AlphaMode alpha_mode;
+    double alpha_cutoff;
+    bool double_sided;
+    std::vector<double> uv_offset, uv_scale;
+    double uv_rotation;
     Green normal_green;
     AlphaIs alpha_is;
     SurfaceIs surface;
@@ -55,12 +64,15 @@ struct TextureParams {
 
     template <class Visit>
     static void fields(Visit&& visit) {
+        visit("source", &TextureParams::source);
+        visit("material", &TextureParams::material);
         visit("diffuse", &TextureParams::diffuse);
         visit("specular", &TextureParams::specular);
         visit("gloss", &TextureParams::gloss);
         visit("normal", &TextureParams::normal);
         visit("occlusion", &TextureParams::occlusion);
         visit("opacity", &TextureParams::opacity);
+        visit("emissive", &TextureParams::emissive);
         visit("colour_space", &TextureParams::colour_space);
         visit("model", &TextureParams::model);
         visit("diffuse_coupling", &TextureParams::diffuse_coupling);
@@ -73,6 +85,16 @@ struct TextureParams {
         visit("diffuse_factor", &TextureParams::diffuse_factor);
         visit("specular_factor", &TextureParams::specular_factor);
         visit("gloss_factor", &TextureParams::gloss_factor);
+        visit("opacity_factor", &TextureParams::opacity_factor);
+        visit("emissive_factor", &TextureParams::emissive_factor);
+        visit("normal_scale", &TextureParams::normal_scale);
+        visit("occlusion_strength", &TextureParams::occlusion_strength);
+        visit("alpha_mode", &TextureParams::alpha_mode);
+        visit("alpha_cutoff", &TextureParams::alpha_cutoff);
+        visit("double_sided", &TextureParams::double_sided);
+        visit("uv_offset", &TextureParams::uv_offset);
+        visit("uv_scale", &TextureParams::uv_scale);
+        visit("uv_rotation", &TextureParams::uv_rotation);
         visit("normal_green", &TextureParams::normal_green);
         visit("alpha_is", &TextureParams::alpha_is);
         visit("surface", &TextureParams::surface);
@@ -111,8 +133,8 @@ struct EnumNames<texture::Fit> {
 };
 template <>
 struct EnumNames<texture::GlossIn> {
-    static constexpr std::array<std::string_view, 5> names{"auto", "gloss", "specular_alpha", "diffuse_alpha",
-                                                           "normal_alpha"};
+    static constexpr std::array<std::string_view, 6> names{"auto",          "gloss",        "specular_alpha",
+                                                           "diffuse_alpha", "normal_alpha", "constant"};
 };
 template <>
 struct EnumNames<texture::GlossIs> {
@@ -143,6 +165,10 @@ struct EnumNames<texture::Packing> {
 template <>
 struct EnumNames<texture::Wrap> {
     static constexpr std::array<std::string_view, 2> names{"repeat", "clamp"};
+};
+template <>
+struct EnumNames<texture::AlphaMode> {
+    static constexpr std::array<std::string_view, 4> names{"auto", "opaque", "mask", "blend"};
 };
 template <>
 struct EnumNames<texture::ExtraMap> {

@@ -21,6 +21,16 @@ bool varies(const Image& image, int channel) {
     return false;
 }
 
+/// Heights and the like: tangent-space normals point up, so they are blue.
+bool is_grey(const Image& image) {
+    const std::size_t channels = image.channels.size();
+    const std::vector<float>& texels = image.levels.front().texels;
+    if (channels < 3) return true;
+    for (std::size_t i = 0; i + 2 < texels.size(); i += channels)
+        if (texels[i] != texels[i + 1] || texels[i] != texels[i + 2]) return false;
+    return true;
+}
+
 pbr::PhongNorm norm_of(Norm norm) { return static_cast<pbr::PhongNorm>(norm); }
 pbr::LobeFit fit_of(Fit fit) { return static_cast<pbr::LobeFit>(fit); }
 static_assert(static_cast<int>(Norm::over_pi) == static_cast<int>(pbr::PhongNorm::over_pi) &&
@@ -41,6 +51,7 @@ const std::array<float, 257> kSrgbSlopes = [] {
 
 Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(params), inputs_(inputs) {
     for (const auto& [field, source] : inputs) {
+        if (source.image.levels.empty()) continue;  // the text of materials
         if (source.image.faces != 1)
             throw Error(ExitCode::unreadable_input, "",
                         field + ": is a cube map; a texture set is of flat pictures");
@@ -49,8 +60,9 @@ Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(pa
     }
     diffuse_ = map_of("diffuse", 0);
     specular_ = map_of("specular", 0);
-    normal_ = map_of("normal", 0);
     occlusion_ = map_of("occlusion", 0);
+    emissive_ = map_of("emissive", 0);
+    choose_normal();
     choose_gloss();
     choose_opacity();
     tabulate_gloss();
@@ -58,12 +70,14 @@ Sources::Sources(const TextureParams& params, const Inputs& inputs) : params_(pa
         params.diffuse_coupling == Coupling::fresnel ||
         (params.diffuse_coupling == Coupling::automatic && params.model == Model::specular_gloss);
     coupling_ = coupled ? pbr::DiffuseCoupling::fresnel : pbr::DiffuseCoupling::none;
-    for (const auto& [field, source] : inputs)
-        if (source.image.levels.front().width != width_ || source.image.levels.front().height != height_)
-            warnings_.push_back(field + ": is " + std::to_string(source.image.levels.front().width) + " x " +
-                                std::to_string(source.image.levels.front().height) +
-                                ", interpolated to the set's " + std::to_string(width_) + " x " +
-                                std::to_string(height_));
+    for (const auto& [field, source] : inputs) {
+        if (source.image.levels.empty()) continue;
+        const Level& level = source.image.levels.front();
+        if (level.width != width_ || level.height != height_)
+            warnings_.push_back(field + ": is " + std::to_string(level.width) + " x " +
+                                std::to_string(level.height) + ", interpolated to the set's " +
+                                std::to_string(width_) + " x " + std::to_string(height_));
+    }
 }
 
 /// No map where the set has no such file, or that no such channel.
@@ -75,6 +89,13 @@ Sources::Map Sources::map_of(const std::string& field, int channel) const {
             channel < 3 && source.colour_space.find("srgb") != std::string::npos};
 }
 
+void Sources::choose_normal() {
+    normal_ = map_of("normal", 0);
+    if (!normal_.image || !is_grey(*normal_.image)) return;
+    normal_ = {};
+    warnings_.push_back("normal: is grey, so it holds heights and no normals; left out");
+}
+
 void Sources::choose_gloss() {
     const bool is_auto = params_.gloss_in == GlossIn::automatic;
     const auto take = [&](GlossIn where, const char* field, int channel) {
@@ -82,6 +103,8 @@ void Sources::choose_gloss() {
         const Map map = map_of(field, channel);
         // An alpha that is the same everywhere was added by a file format.
         if (map.image && (!is_auto || channel == 0 || varies(*map.image, channel))) gloss_ = map;
+        // Nor does a picture whose alpha is 1 need to store it.
+        is_gloss_constant_ |= !is_auto && !map.image && channel == 3 && inputs_.contains(field);
     };
     take(GlossIn::gloss, "gloss", 0);
     take(GlossIn::specular_alpha, "specular", 3);
@@ -89,7 +112,8 @@ void Sources::choose_gloss() {
         take(GlossIn::diffuse_alpha, "diffuse", 3);
         take(GlossIn::normal_alpha, "normal", 3);
     }
-    if (gloss_.image) return;
+    is_gloss_constant_ |= params_.gloss_in == GlossIn::constant;
+    if (gloss_.image || is_gloss_constant_) return;
     if (!is_auto)
         throw Error(ExitCode::unreadable_input, "",
                     "gloss_in: found \"" + std::string(enum_name(params_.gloss_in)) +
@@ -154,10 +178,11 @@ float Sources::perceptual_roughness(float gloss, float& n) const {
         return pbr::perceptual_roughness_from_alpha(pbr::alpha_from_blinn_phong(blinn, fit_of(params_.fit)));
     };
     constexpr float kAssumed = .5f;  // of a set that says nothing
-    n = gloss_.image ? exponent(gloss) : params_.power > 0 ? static_cast<float>(params_.power) : -1;
+    const bool has_value = gloss_.image || is_gloss_constant_;
+    n = has_value ? exponent(gloss) : params_.power > 0 ? static_cast<float>(params_.power) : -1;
     if (n >= 0) return of_exponent(n);
     const float value = std::clamp(gloss, 0.f, 1.f);
-    const float p = !gloss_.image                                       ? kAssumed
+    const float p = !has_value                                          ? kAssumed
                     : params_.gloss_is == GlossIs::perceptual_roughness ? value
                     : params_.gloss_is == GlossIs::alpha ? pbr::perceptual_roughness_from_alpha(value)
                                                          : pbr::perceptual_roughness_from_smoothness(value);
@@ -214,8 +239,7 @@ LegacyTexel Sources::texel(int x, int y) const {
     };
     const Colour diffuse = colour(diffuse_, params_.diffuse_factor, texel.quantisation.diffuse);
     Colour specular = colour(specular_, params_.specular_factor, texel.quantisation.f0);
-    if (!specular_.image && specular == Colour(1))
-        specular = Colour(static_cast<float>(params_.dielectric_f0));
+    if (!has_specular()) specular = Colour(static_cast<float>(params_.dielectric_f0));
     const Lobe lobe = lobe_at(x, y);
     texel.perceptual_roughness = lobe.perceptual_roughness;
     if (!has_legacy_lobe()) {
@@ -252,6 +276,12 @@ float Sources::opacity(int x, int y) const {
     float value = 1;
     fetch(opacity_, x, y, &value, 1);
     return std::clamp(value, 0.f, 1.f);
+}
+
+Colour Sources::emissive(int x, int y) const {
+    Colour value;
+    fetch(emissive_, x, y, &value.x, 3);
+    return glm::clamp(value, Colour(0), Colour(1));
 }
 
 }  // namespace pbrbake::texture

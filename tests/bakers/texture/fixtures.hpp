@@ -21,7 +21,11 @@ inline TextureParams defaults() {
     params.colour_space = "auto";
     params.power_scale = 255;
     params.diffuse_factor = params.specular_factor = {1, 1, 1};
-    params.gloss_factor = 1;
+    params.gloss_factor = params.opacity_factor = params.normal_scale = params.occlusion_strength = 1;
+    params.emissive_factor = {0, 0, 0};
+    params.alpha_cutoff = .5;
+    params.uv_offset = {0, 0};
+    params.uv_scale = {1, 1};
     params.dielectric_f0 = .04;
     params.f0_tolerance = .02;
     params.regularise = params.multiscatter = params.residual = true;

@@ -1,0 +1,19 @@
+#pragma once
+// What a baked set is as a glTF 2.0 material, and the document of that material over the files of a bake.
+
+#include <optional>
+
+#include "bakers/texture/pack.hpp"
+
+namespace pbrbake::texture {
+
+/// {"images": names, "material": a material whose textures are indices of them}. A dielectric f0 beside .04
+/// is KHR_materials_specular where it has a texture or a colour, KHR_materials_ior where it is one grey.
+/// `factors` is the one texel of a set without pictures.
+Json gltf_material(const TextureParams& params, const Layout& layout, float specular_unit,
+                   const std::optional<Unpacked>& factors);
+
+/// The document of gltf_material's result; its URIs are PNG files beside `file`, "X.gltf".
+Json gltf_document(const TextureParams& params, const Json& gltf, const std::string& file);
+
+}  // namespace pbrbake::texture

@@ -1,0 +1,258 @@
+// Materials of other formats through the program: `texture --source`, jobs, glTF out, and what can go wrong.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "bakers/job/json_text.hpp"
+#include "bakers/job/schema.hpp"
+#include "tests/cli/program.hpp"
+
+namespace pbrbake::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// An 8 x 8 TGA of one colour.
+std::string targa(int red, int green, int blue) {
+    std::string file(18, '\0');
+    file[2] = 2;
+    file[12] = file[14] = 8;
+    file[16] = 24;
+    file[17] = 0x20;
+    for (int i = 0; i < 64; ++i)
+        for (const int value : {blue, green, red}) file += static_cast<char>(value);
+    return file;
+}
+
+Json read_json(const fs::path& file) { return job::parse_json(job::read_text(file), file.string()); }
+
+void expect_valid(const fs::path& document, const char* schema_name) {
+    const fs::path file = fs::path(PBRBAKE_SOURCE_DIR) / "schemas" / schema_name;
+    const job::Schema schema(job::parse_json(job::read_text(file), file.string()));
+    for (const Mistake& mistake : schema.mistakes(read_json(document)))
+        ADD_FAILURE() << document << " " << mistake.pointer << ": " << mistake.message;
+}
+
+/// A folder with sources in it, and pbrbake texture over them.
+class Scene {
+  public:
+    explicit Scene(const std::string& file, const std::string& text) : source_(folder_.write(file, text)) {}
+
+    fs::path path(const std::string& name) const { return source_.parent_path() / name; }
+    void add(const std::string& name, const std::string& bytes) const { folder_.write(name, bytes); }
+
+    Outcome bake(const std::string& output, std::vector<std::string> flags = {}) const {
+        std::vector<std::string> arguments{"texture", "--source", source_, "-o", path(output)};
+        arguments.insert(arguments.end(), flags.begin(), flags.end());
+        return run_program(arguments);
+    }
+
+    /// The material of a glTF file that was written.
+    Json material(const std::string& file) const { return read_json(path(file))["materials"][0]; }
+
+  private:
+    TemporaryFolder folder_;
+    fs::path source_;
+};
+
+const char* const kThree =
+    "newmtl brick wall\nKd .8 .8 .8\nKs .1\nNs 10\nillum 2\nmap_Kd Brick.TGA\n"
+    "newmtl gold\nKd 1 .766 .336\nPr .25\nPm 1\n"
+    "newmtl veil\nKd .5 .25 .125\nillum 1\nd .5\nKe 2 1 0\n";
+
+TEST(Materials, OfASceneAreBakedOneByOne) {
+    const Scene scene("scene.mtl", kThree);
+    scene.add("brick.tga", targa(180, 90, 60));
+    const Outcome outcome = scene.bake("out.gltf");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("scene.mtl:6: material \"brick wall\": map_Kd: took"));
+
+    const Json document = read_json(scene.path("out_brick_wall.gltf"));
+    EXPECT_EQ(document["images"][0]["uri"], "out_brick_wall_base_color.png");
+    for (const Json& image : document["images"])
+        EXPECT_TRUE(fs::exists(scene.path(image["uri"].get<std::string>()))) << image;
+    const Json brick = document["materials"][0];
+    EXPECT_EQ(brick["name"], "brick wall");
+    EXPECT_EQ(brick["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+    EXPECT_FALSE(brick.contains("alphaMode") || brick.contains("occlusionTexture"));
+    for (const char* name : {"out_brick_wall", "out_gold", "out_veil"}) {
+        expect_valid(scene.path(std::string(name) + ".gltf.json"), "sidecar.schema.json");
+        expect_valid(scene.path(std::string(name) + ".material.json"), "material.schema.json");
+    }
+}
+
+TEST(Materials, WithoutPicturesAreFactors) {
+    const Scene scene("scene.mtl", kThree);
+    ASSERT_EQ(scene.bake("gold.gltf", {"--material", "gold"}).code, 0);
+    EXPECT_FALSE(fs::exists(scene.path("gold_base_color.png")));
+    const Json gold = scene.material("gold.gltf")["pbrMetallicRoughness"];
+    const double base[] = {1, .766, .336};
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(gold["baseColorFactor"][i].get<double>(), base[i], 1e-4);
+    EXPECT_NEAR(gold["metallicFactor"].get<double>(), 1, 1e-3);
+    EXPECT_NEAR(gold["roughnessFactor"].get<double>(), .25, 1e-6);
+    EXPECT_LE(read_json(scene.path("gold.gltf.json"))["certificate"]["headline"]["value"].get<double>(),
+              1e-4);
+
+    ASSERT_EQ(scene.bake("veil.gltf", {"--material", "veil"}).code, 0);
+    const Json veil = scene.material("veil.gltf");
+    EXPECT_EQ(veil["alphaMode"], "BLEND");
+    EXPECT_EQ(veil["pbrMetallicRoughness"]["baseColorFactor"][3], .5);
+    EXPECT_NEAR(veil["pbrMetallicRoughness"]["baseColorFactor"][0].get<double>(), .5, 1e-4);
+    EXPECT_EQ(veil["emissiveFactor"], Json({1, .5, 0}));
+    EXPECT_EQ(veil["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"], 2);
+    EXPECT_EQ(veil["extensions"]["KHR_materials_specular"]["specularFactor"], 0);  // Lambert's
+    EXPECT_THAT(read_json(scene.path("veil.gltf"))["extensionsUsed"].dump(),
+                AllOf(HasSubstr("emissive_strength"), HasSubstr("KHR_materials_specular")));
+}
+
+TEST(Materials, SayTheirDielectricF0) {
+    const auto extensions = [](const std::string& f0) {
+        const Scene scene("m.json", R"({"materials": [{"name": "m", "diffuse_factor": [0.5, 0.5, 0.5],
+            "surface": "dielectric", "specular_factor": )" +
+                                        f0 + "}]}");
+        const Outcome outcome = scene.bake("m.gltf");
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return scene.material("m.gltf").value("extensions", Json::object());
+    };
+    EXPECT_TRUE(extensions("[0.04, 0.04, 0.04]").empty());
+    const double root = std::sqrt(.08);
+    EXPECT_NEAR(extensions("[0.08, 0.08, 0.08]")["KHR_materials_ior"]["ior"].get<double>(),
+                (1 + root) / (1 - root), 1e-4);
+    const Json coloured = extensions("[0.02, 0.04, 0.08]")["KHR_materials_specular"]["specularColorFactor"];
+    EXPECT_NEAR(coloured[0].get<double>(), .5, 1e-4);
+    EXPECT_NEAR(coloured[2].get<double>(), 2, 1e-4);
+}
+
+TEST(Materials, OfAJobAreNamedAfterItsBakeAndOverriddenByIt) {
+    const Scene scene("scene.mtl", kThree);
+    scene.add("brick.tga", targa(180, 90, 60));
+    scene.add("job.json", R"({"version": 1, "output": "baked", "bakes": [
+        {"kind": "texture", "name": "level", "source": "scene.mtl", "format": "gltf", "double_sided": true},
+        {"kind": "texture", "name": "brick", "source": "scene.mtl", "material": "brick wall", "format": "ktx2"}]})");
+    const Outcome outcome = run_program({"bake", scene.path("job.json")});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json manifest = read_json(scene.path("baked/manifest.json"));
+    std::vector<std::string> names;
+    for (const Json& product : manifest["products"]) names.push_back(product["name"]);
+    EXPECT_THAT(names, testing::ElementsAre("level_brick_wall", "level_gold", "level_veil", "brick"));
+    EXPECT_EQ(scene.material("baked/level_gold.gltf")["doubleSided"], true);
+    EXPECT_TRUE(fs::exists(scene.path("baked/brick.ktx2")));
+    EXPECT_EQ(manifest["products"][0]["inputs"].size(), 2u);  // brick.tga and scene.mtl
+}
+
+TEST(Materials, OfANameAreItsPictures) {
+    const Scene scene("crate_d.tga", targa(120, 100, 80));
+    scene.add("crate_s.tga", targa(40, 40, 40));
+    scene.add("crate_local.tga", targa(128, 128, 255));
+    scene.add("crate_glow.tga", targa(255, 0, 0));
+    const fs::path base = scene.path("crate"), product = scene.path("out.gltf");
+    const Outcome outcome = run_program({"texture", "--source", base, "-o", product});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json material = scene.material("out.gltf");
+    EXPECT_TRUE(material.contains("normalTexture") && material.contains("emissiveTexture"));
+    EXPECT_EQ(material["emissiveFactor"], Json({1, 1, 1}));
+    const Json record = read_json(scene.path("out.gltf.json"));
+    EXPECT_EQ(record["params"]["power"], 16);
+    EXPECT_EQ(record["params"]["source"], "crate");  // no path of this machine
+    EXPECT_EQ(record["pixel"], "unorm8");
+}
+
+TEST(Materials, LeaveHeightsOutAndSaySo) {
+    const Scene scene("m.mtl", "newmtl m\nmap_Kd d.tga\nbump h.tga");
+    scene.add("d.tga", targa(90, 80, 70));
+    scene.add("h.tga", targa(90, 90, 90));
+    const Outcome outcome = scene.bake("m.gltf");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("normal: is grey, so it holds heights"));
+    EXPECT_FALSE(scene.material("m.gltf").contains("normalTexture"));
+}
+
+TEST(Materials, FailOneByOneAndSayWhere) {
+    const Scene scene("scene.mtl", kThree);  // brick.tga is absent
+    const Outcome outcome = scene.bake("out.gltf");
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("scene.mtl:6: material \"brick wall\": map_Kd: there is no file"));
+    EXPECT_TRUE(fs::exists(scene.path("out_gold.gltf")));
+    EXPECT_FALSE(fs::exists(scene.path("out_brick_wall.gltf")));
+    EXPECT_FALSE(fs::exists(scene.path("out_brick_wall_base_color.png")));
+}
+
+TEST(Materials, NameWhatIsWrong) {
+    const auto refused = [](const std::string& file, const std::string& text,
+                            std::vector<std::string> flags = {}) {
+        const Scene scene(file, text);
+        const Outcome outcome = scene.bake("out.gltf", std::move(flags));
+        EXPECT_EQ(outcome.code, 4) << outcome.err;
+        EXPECT_FALSE(fs::exists(scene.path("out.gltf")));
+        return outcome.err;
+    };
+    EXPECT_THAT(
+        refused("s.mtl", kThree, {"--material", "glod"}),
+        HasSubstr(
+            "found no material 'glod'; allowed: \"brick wall\", \"gold\", \"veil\"; did you mean \"gold\"?"));
+    EXPECT_THAT(refused("s.mtl", ""), HasSubstr("s.mtl"));
+    EXPECT_THAT(refused("s.mtl", "newmtl a\nKd 1 inf 1"), HasSubstr("s.mtl:2: found 'inf' as 'kd'"));
+    EXPECT_THAT(refused("s.mtl", "newmtl a\nmap_Kd ../../x.tga"), HasSubstr("leads out of the folder"));
+    EXPECT_THAT(refused("s.json", R"({"materials": [{"name": "a", "diffues": "x"}]})"),
+                HasSubstr("material \"a\": found \"diffues\", which is no field of a texture set"));
+    EXPECT_THAT(refused("s.json", R"({"materials": [{"name": "a", "power": "x"}]})"),
+                AllOf(HasSubstr("material \"a\": power: found \"x\""), HasSubstr("s.json")));
+    EXPECT_THAT(refused("s.json", R"({"materials": [{"name": "a", "power": -1}]})"), HasSubstr("power"));
+    EXPECT_THAT(refused("crates", "no picture"), HasSubstr("is neither materials"));
+    const Outcome absent = run_program({"texture", "--source", "none.mtl", "-o", "/tmp/none.gltf"});
+    EXPECT_EQ(absent.code, 4);
+    EXPECT_THAT(absent.err, HasSubstr("none.mtl"));
+}
+
+TEST(Materials, AreHeldAgainstTheFormat) {
+    const Scene scene("s.mtl", "newmtl a\nKd .5");
+    Outcome outcome = scene.bake("out.gltf", {"--packing", "unity"});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("--packing: found \"unity\"; allowed with format gltf: \"gltf\""));
+    outcome = run_program({"texture", "--material", "a", "-o", scene.path("out.gltf")});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("--material: needs the source"));
+    EXPECT_EQ(scene.bake("out.png", {"--packing", "unity"}).code, 0);  // one texel
+    outcome = scene.bake("out.gltf", {"--dry-run"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.out,
+                AllOf(HasSubstr("out.gltf"), HasSubstr("out.material.json"), Not(HasSubstr("base_color"))));
+}
+
+TEST(MaterialsRealFiles, Convert) {
+    const char* data = std::getenv("PBRBAKE_SHARED_DATA");
+    if (!data) GTEST_SKIP() << "no shared data: set PBRBAKE_SHARED_DATA to its folder";
+    const TemporaryFolder folder;
+    const fs::path out = folder.write("x", "").parent_path();
+    for (const char* file :
+         {"assimp/box_spaces.mtl", "assimp/regr01.mtl", "assimp/regr_3429812.mtl", "assimp/BoxTextured.gltf",
+          "obj_mtl/box-complex-material/box-complex-material.mtl",
+          "obj_mtl/box-complex-material-alpha/box-complex-material-alpha.mtl",
+          "obj_mtl/box-multiple-materials/box-multiple-materials.mtl",
+          "obj_mtl/box-texture-options/box-texture-options.mtl"}) {
+        SCOPED_TRACE(file);
+        const fs::path source = fs::path(data) / "legacy" / file;
+        const Outcome outcome =
+            run_program({"texture", "--source", source, "-o", out / (source.stem().string() + ".gltf")});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+    }
+    const auto factor = [&](const char* file, const char* name) {
+        return read_json(out / file)["materials"][0]["pbrMetallicRoughness"][name].get<double>();
+    };
+    EXPECT_LT(factor("box-multiple-materials_Red.gltf", "metallicFactor"), .05);
+    EXPECT_LT(factor("box_spaces_Floor.gltf", "metallicFactor"), .05);
+    // Its pictures are another repository's: five clear errors.
+    const Outcome spider = run_program(
+        {"texture", "--source", fs::path(data) / "legacy/assimp/spider.mtl", "-o", out / "spider.gltf"});
+    EXPECT_EQ(spider.code, 4);
+    EXPECT_THAT(spider.err, HasSubstr("spider.mtl:10: material \"Skin\": map_Kd: there is no file"));
+}
+
+}  // namespace
+}  // namespace pbrbake::test
