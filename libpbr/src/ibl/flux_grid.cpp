@@ -3,12 +3,10 @@
 #include <numbers>
 #include <utility>
 
-#include "src/ibl/lat_long_grid.hpp"
-
 namespace pbr {
 
-FluxGrid::FluxGrid(int bands)
-    : rows_(grid_rows(bands)),
+FluxGrid::FluxGrid(int rows)
+    : rows_(rows),
       columns_(2 * fast_fourier_size(rows_)),
       flux_(static_cast<std::size_t>(rows_) * columns_ * 3) {}
 

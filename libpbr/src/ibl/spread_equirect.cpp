@@ -125,9 +125,9 @@ class RowSum {
 
 }  // namespace
 
-FluxGrid spread_equirect(const EquirectView& source, const std::array<float, 3>& constant, int bands,
+FluxGrid spread_equirect(const EquirectView& source, const std::array<float, 3>& constant, int grid_rows,
                          int points_a_row, std::span<const CubeTexel> without, const ForEach& each) {
-    FluxGrid grid(bands);
+    FluxGrid grid(grid_rows);
     const std::vector<std::vector<RowShare>> rows = row_shares(source.height, points_a_row, grid.rows());
     const std::vector<ColumnSum> columns = column_sums(source.width, grid.columns());
     const int margin = padding(source.width, grid.columns());

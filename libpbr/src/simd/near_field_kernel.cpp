@@ -189,7 +189,7 @@ NearField::NearField(const EquirectView& source, const glm::dvec3& constant,
       constant_{static_cast<float>(constant.x), static_cast<float>(constant.y),
                 static_cast<float>(constant.z)},
       split_(split),
-      radius_(2 * atan2_exact(std::sqrt(split.limit() / 2), std::sqrt(1 - split.limit() / 2))),
+      radius_(split.radius()),
       texel_angle_(std::max(2 * kPi / source.width, kPi / source.height)) {
     for (int row = 0; row < source.height; ++row) rows_.push_back(source.texel(0, row));
     int patched_rows = 0, last = -1;
@@ -216,13 +216,7 @@ NearField::NearField(const EquirectView& source, const glm::dvec3& constant,
 }
 
 std::uint64_t NearField::add(std::span<const glm::dvec3> directions, std::span<double> rgb) const {
-    const double alpha = split_.kernel().alpha(), alpha2 = alpha * alpha;
-    NearKernel kernel{static_cast<float>(alpha2),
-                      static_cast<float>((1 - alpha2) / 4),
-                      static_cast<float>(split_.kernel().normalisation()),
-                      static_cast<float>(split_.limit()),
-                      {}};
-    for (std::size_t n = 0; n < 4; ++n) kernel.polynomial[n] = static_cast<float>(split_.polynomial()[n]);
+    const NearKernel kernel(split_);
     const double sine_radius = sin_cos_pi(radius_ / kPi).sin;
     std::vector<std::vector<float>> squares(rules_.size() + 1);
     std::vector<glm::dvec3> turned;

@@ -19,6 +19,7 @@
 #include "pbr/ibl/environment.hpp"
 #include "pbr/ibl/harmonic_filter.hpp"
 #include "pbr/ibl/near_field.hpp"
+#include "pbr/ibl/split_kernel.hpp"
 
 namespace pbr {
 
@@ -52,13 +53,16 @@ class LdHarmonic {
       private:
         friend class LdHarmonic;
         Level(const LdHarmonic& of, double alpha, const ForEach& each);
-        int band_limit(const LdHarmonic& of, std::span<const double> kernel);
+        std::vector<double> split_bright(const LdHarmonic& of, const GgxZonalKernel& lobe);
+        int band_limit(const LdHarmonic& of, std::span<const double> kernel,
+                       std::span<const double> kernel_of_bright);
 
         double alpha_;
         double truncation_error_ = 0;
         int bands_;
         std::optional<HarmonicGrid> grid_;
         const BrightTexels* bright_;
+        std::optional<SplitKernel> bright_split_;  ///< whose near part alone bright_ adds
         std::optional<NearField> near_;
         glm::dvec3 near_constant_{0};  ///< what the near part makes of the constant taken out of it
     };
@@ -80,14 +84,18 @@ class LdHarmonic {
 
   private:
     template <class View>
-    void prepare(const View& source, int rows, double smallest_alpha, int most_bands, const ForEach& each);
-    glm::dvec3 mean() const;  ///< of what is left
+    HarmonicRule prepare(const View& source, int height, double smallest_alpha, int most_bands,
+                         const ForEach& each);
+    glm::dvec3 mean() const;      ///< of what is left
+    double sphere_mean2() const;  ///< its square, of all channels together, times their spheres
 
     double max_error_;
     std::vector<CubeTexel> bright_;
     std::optional<BrightTexels> bright_texels_;
     std::optional<HarmonicSpectrum> spectrum_;
     std::vector<double> powers_;  ///< of its degrees
+    std::optional<HarmonicSpectrum> bright_spectrum_;  ///< of bright texels, if they are many
+    std::vector<double> bright_powers_;
     EquirectView equirect_;  ///< if it is one
 };
 
