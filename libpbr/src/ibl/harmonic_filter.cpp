@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "pbr/ibl/equirect_rows.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/fourier.hpp"
 #include "pbr/numerics/quadrature.hpp"
@@ -15,22 +16,12 @@
 #include "src/ibl/ring_modes.hpp"
 #include "src/simd/lat_long_kernel.hpp"
 #include "src/simd/legendre_kernel.hpp"
-#include "src/simd/spread_kernel.hpp"
 
 namespace pbr {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kElement = 2 * kFourierLanes;
-
-/// The texels of a sorted list that lie in a row.
-std::span<const CubeTexel> in_row(std::span<const CubeTexel> texels, int face, int y) {
-    const auto range = std::equal_range(texels.begin(), texels.end(), CubeTexel{face, 0, y},
-                                        [](const CubeTexel& p, const CubeTexel& q) {
-                                            return std::pair(p.face, p.y) < std::pair(q.face, q.y);
-                                        });
-    return {range.first, range.second};
-}
 
 /// The integral of e^(i m phi) over a column about its middle, for orders 0 ... bands.
 std::vector<double> widths(int columns, int bands) {
@@ -42,23 +33,29 @@ std::vector<double> widths(int columns, int bands) {
     return result;
 }
 
-/// Rings of a picture less its constant, with the integral over each constant texel: its sinc, from the first
-/// texel's centre on.
-RingSource rings_of(const EquirectView& source, const PicturePart& part, int bands) {
-    RingSource rings{source.width, source.height, {}, {}};
-    rings.read = [source, part](int y, int channel, double* out) {
-        const double constant = static_cast<double>(part.constant[static_cast<std::size_t>(channel)]);
-        const float* texel = source.texel(0, y) + channel;
-        for (int x = 0; x < source.width; ++x)
-            out[x * kElement] = static_cast<double>(texel[x * 3]) - constant;
-        for (const CubeTexel& black : in_row(part.without, 0, y)) out[black.x * kElement] = -constant;
-    };
-    const std::vector<double> integrals = widths(source.width, bands);
+/// The same times e^(-i m phi) of the first column's middle.
+std::vector<std::complex<double>> texel_factors(int columns, int bands) {
+    std::vector<std::complex<double>> result;
+    const std::vector<double> integrals = widths(columns, bands);
     for (int m = 0; m <= bands; ++m) {
-        const SinCos angle = sin_cos_pi(static_cast<double>(m) / source.width);
+        const SinCos angle = sin_cos_pi(static_cast<double>(m) / columns);
         const double scale = integrals[static_cast<std::size_t>(m)];
-        rings.factors.emplace_back(scale * angle.cos, -scale * angle.sin);
+        result.emplace_back(scale * angle.cos, -scale * angle.sin);
     }
+    return result;
+}
+
+/// Rings of a picture less its constant, with the integral over each constant texel: its sinc, from the first
+/// texel's centre on. Refers to `rows`.
+RingSource rings_of(const EquirectView& source, const EquirectRows& rows,
+                    const std::array<float, 3>& constant, int bands) {
+    RingSource rings{source.width, source.height, {}, {}};
+    rings.read = [&rows, constant, width = source.width](int y, int channel, double* out) {
+        const double taken = static_cast<double>(constant[static_cast<std::size_t>(channel)]);
+        const float* texel = rows.row(y) + channel;
+        for (int x = 0; x < width; ++x) out[x * kElement] = static_cast<double>(texel[x * 3]) - taken;
+    };
+    rings.factors = texel_factors(source.width, bands);
     return rings;
 }
 
@@ -123,8 +120,8 @@ RingModes analyse_texels(const EquirectView& source, std::span<const CubeTexel> 
         for (const CubeTexel& texel : texels) {
             const int mirrored = source.height - 1 - texel.y;
             const auto pair = std::ranges::lower_bound(pairs, std::min(texel.y, mirrored)) - pairs.begin();
-            const SinCos& turn = turns[static_cast<std::size_t>(
-                (2L * texel.x + 1) * m % (2L * source.width))];
+            const SinCos& turn =
+                turns[static_cast<std::size_t>((2L * texel.x + 1) * m % (2L * source.width))];
             const double width = integrals[static_cast<std::size_t>(m)];
             // A middle row counts as north and south.
             const double north = texel.y <= mirrored ? width : 0, south = texel.y >= mirrored ? width : 0;
@@ -144,8 +141,12 @@ RingModes analyse_texels(const EquirectView& source, std::span<const CubeTexel> 
 
 HarmonicRule harmonic_rule(int height, int bands, double alpha, double max_error) {
     // x^7 K1(x) is at most 382: the weight of (l h)^6 at h = 2 alpha.
-    const double step = 2 * alpha * grid_step(max_error / 10, 382);
-    return {bands, points_a_row(height, alpha, max_error / 10), grid_rows(step, bands)};
+    const auto rows_for = [&](double allowed) {
+        return grid_rows(2 * alpha * grid_step(allowed, 382), bands);
+    };
+    const double allowed = max_error / 10;
+    return {bands, points_a_row(height, alpha, allowed), rows_for(allowed),
+            grid_columns(rows_for(std::min(allowed, 5e-6)))};
 }
 
 HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, const HarmonicRule& rule, const ForEach& each,
@@ -153,11 +154,18 @@ HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, const HarmonicRul
     : HarmonicSpectrum(rule.bands, source.world_to_source, part.constant) {
     assert(rule.points_a_row >= 1);
     if (source.height > rule.grid_rows) {
+        const bool keeps_columns = source.width <= rule.grid_columns && source.width % 2 == 0;
         const FluxGrid grid =
-            spread_equirect(source, part.constant, rule.grid_rows, rule.points_a_row, part.without, each);
-        integrate_grid(grid, widths(source.width, bands_), each);
+            spread_equirect(source, part, rule.grid_rows, keeps_columns ? source.width : rule.grid_columns,
+                            rule.points_a_row, each);
+        const std::vector<double> centred = widths(source.width, bands_);
+        integrate_grid(grid,
+                       keeps_columns ? texel_factors(source.width, bands_)
+                                     : std::vector<std::complex<double>>(centred.begin(), centred.end()),
+                       each);
     } else {
-        RingModes modes = analyse_rings(rings_of(source, part, bands_), each);
+        const EquirectRows texels(source, part.without);
+        RingModes modes = analyse_rings(rings_of(source, texels, part.constant, bands_), each);
         std::vector<int> rows(static_cast<std::size_t>(source.height + 1) / 2);
         std::iota(rows.begin(), rows.end(), 0);
         const RowPoints points = row_points(source.height, rule.points_a_row, rows);
@@ -170,9 +178,8 @@ HarmonicSpectrum::HarmonicSpectrum(const CubeView& source, const HarmonicRule& r
                                    const PicturePart& part)
     : HarmonicSpectrum(rule.bands, glm::dmat3(1), part.constant) {
     assert(rule.points_a_row >= 1);
-    const FluxGrid grid =
-        spread_cube(source, part.constant, rule.grid_rows, rule.points_a_row, part.without, each);
-    integrate_grid(grid, std::vector<double>(static_cast<std::size_t>(bands_) + 1, 1.0), each);
+    const FluxGrid grid = spread_cube(source, part, rule.grid_columns, rule.points_a_row, each);
+    integrate_grid(grid, std::vector<std::complex<double>>(static_cast<std::size_t>(bands_) + 1, 1.0), each);
     add_constant();
 }
 
@@ -217,9 +224,9 @@ void HarmonicSpectrum::integrate(RingModes& modes, const std::vector<double>& co
     });
 }
 
-void HarmonicSpectrum::integrate_grid(const FluxGrid& grid, const std::vector<double>& factors,
+void HarmonicSpectrum::integrate_grid(const FluxGrid& grid, std::vector<std::complex<double>> factors,
                                       const ForEach& each) {
-    RingModes modes = analyse_rings(grid.rings({factors.begin(), factors.end()}), each);
+    RingModes modes = analyse_rings(grid.rings(std::move(factors)), each);
     const std::vector<double> colatitudes_rad = grid.colatitudes_rad();
     integrate(modes, colatitudes_rad, std::vector<double>(colatitudes_rad.size(), 1.0), 1, each);
 }
@@ -264,9 +271,9 @@ FieldCoefficients add_up(std::span<const HarmonicGrid::Term> terms, int bands, c
             const std::span<const double> coefficients = term.spectrum->of_order(m);
             const int degrees = static_cast<int>(term.kernel.size()) - m;
             for (int i = 0; i < degrees * kParts; ++i)
-                of_order[static_cast<std::size_t>(i)] += (m == 0 ? 1 : 2) *
-                                                         term.kernel[static_cast<std::size_t>(m + i / kParts)] *
-                                                         coefficients[static_cast<std::size_t>(i)];
+                of_order[static_cast<std::size_t>(i)] +=
+                    (m == 0 ? 1 : 2) * term.kernel[static_cast<std::size_t>(m + i / kParts)] *
+                    coefficients[static_cast<std::size_t>(i)];
         }
     });
     return field;
@@ -291,7 +298,7 @@ double sixth_derivative(const FieldCoefficients& field) {
 
 }  // namespace
 
-HarmonicGrid::HarmonicGrid(std::span<const Term> terms, double max_error, const ForEach& each)
+HarmonicGrid::HarmonicGrid(std::span<const Term> terms, const Error& allowed, const ForEach& each)
     : world_to_source_(terms[0].spectrum->world_to_source()) {
     int bands = 0;
     for (const Term& term : terms) bands = std::max(bands, static_cast<int>(term.kernel.size()) - 1);
@@ -303,8 +310,12 @@ HarmonicGrid::HarmonicGrid(std::span<const Term> terms, double max_error, const 
         constant_[c] = static_cast<float>(constant);
         field[0][2 * c] -= constant * std::sqrt(4 * kPi);
     }
-    rows_ = grid_rows(grid_step(max_error, std::max(sixth_derivative(field), 1e-12 * max_error)), bands);
-    columns_ = 2 * fast_fourier_size(rows_);
+    const double derivative = sixth_derivative(field);
+    const auto rows_for = [&](double error) {
+        return grid_rows(grid_step(error, std::max(derivative, 1e-12 * error)), bands);
+    };
+    rows_ = rows_for(allowed.of_rows);
+    columns_ = grid_columns(rows_for(allowed.of_columns));
     stride_ = columns_ + 2 * kBorder;
     texels_.resize(static_cast<std::size_t>(stride_) * (rows_ + 2 * kBorder) * 4);
 
@@ -315,7 +326,8 @@ HarmonicGrid::HarmonicGrid(std::span<const Term> terms, double max_error, const 
     RingModes modes(bands + 1, pairs);
     each(bands + 1, [&](int m) {
         legendre_synthesise(rings, LegendreOrder(m, bands), rings.first(m, std::max(1, bands)),
-                            field[static_cast<std::size_t>(m)].data(), modes.part(m, 0, 0), modes.part(m, 1, 0));
+                            field[static_cast<std::size_t>(m)].data(), modes.part(m, 0, 0),
+                            modes.part(m, 1, 0));
     });
 
     synthesise_rings(

@@ -19,9 +19,30 @@ constexpr double kBrightShare = 1e-3, kBrightOverMean = 20;
 /// From how many bright texels on it pays to have what is far of them by harmonics.
 constexpr std::size_t kManyBright = 24;
 
-/// Shares of the error asked for, root mean square: of degrees that are known and left out, of those beyond what
-/// is analysed, of interpolation. The rules of analysis take a tenth each.
+/// What interpolation may err by, over the mean, where a picture that is turned - an equirect about its axis,
+/// a cube map about any - should give the same values, turned.
+constexpr double kTurnError = 5e-6;
+
+/// Shares of the error asked for, root mean square: of degrees that are known and left out, of those beyond
+/// what is analysed, of interpolation. The rules of analysis take a tenth each.
 constexpr double kTruncationShare = 0.35, kBeyondShare = 0.25, kInterpolationShare = 0.15;
+
+/// The sum of (2l + 1) k_l^2 beyond a degree: by Parseval's theorem what leaving these out moves a level by,
+/// over its mean and squared, where all light is one point; of uncorrelated points, times the sum of their
+/// shares squared. Of the lobe's peak, from k_l = x K1(x): the integral of x^3 K1(x)^2 / (2 alpha^2) from x =
+/// 2 alpha l on.
+double tail_of_peak(double alpha, int degree) {
+    const double x = 2 * alpha * degree;
+    return std::numbers::pi / 4 * x * (x + 2) * exp_exact(-2 * x) / (2 * alpha * alpha);
+}
+
+/// The same of the kink at the horizon: at alpha 1 k_l is 1.6 l^-5/2 and 0 for every other degree, and else
+/// as much less as the slope is.
+double tail_of_kink(double alpha, int degree) {
+    const double f = (1 + alpha * alpha) / 2, l = degree;
+    const double slope = std::numbers::pi * GgxZonalKernel(alpha).normalisation() / (f * f);
+    return 0.85 * slope * slope / (l * l * l);
+}
 
 /// Rows of texels of a picture, those of a cube map's faces one after the other.
 int row_count(const EquirectView& source) { return source.height; }
@@ -36,13 +57,6 @@ CubeTexel texel_of(const EquirectView&, int row, int x) { return {0, x, row}; }
 CubeTexel texel_of(const CubeView& source, int row, int x) {
     return {row / source.size, x, row % source.size};
 }
-const float* rgb_of(const EquirectView& source, const CubeTexel& texel) {
-    return source.texel(texel.x, texel.y);
-}
-const float* rgb_of(const CubeView& source, const CubeTexel& texel) {
-    return source.texel(texel.face, texel.x, texel.y);
-}
-
 /// Solid angles of a row's texels; a cube map's by the density at the centre, which is near enough to choose
 /// texels by.
 std::vector<double> solid_angles(const EquirectView& source, int row) {
@@ -58,6 +72,12 @@ std::vector<double> solid_angles(const CubeView& source, int row) {
     }
     return result;
 }
+
+/// At least as large as all of them.
+double largest_solid_angle(const EquirectView& source, int row) {
+    return equirect_texel_solid_angle(source.width, source.height, row);
+}
+double largest_solid_angle(const CubeView& source, int) { return 4.0 / source.size / source.size; }
 
 /// Flux of a row's channels, and their largest values, from its texels.
 RowLight light_of_row(const EquirectView& source, int row, const float* rgb) {
@@ -109,23 +129,20 @@ std::vector<CubeTexel> find_bright_texels(const View& source, const std::vector<
     const std::array<double, 3> flux = flux_of(rows);
     std::vector<CubeTexel> bright;
     for (int row = 0; row < row_count(source); ++row) {
-        const auto exceeds_mean = [&](std::size_t c, double value) {
-            return value > kBrightOverMean * flux[c] / (4 * std::numbers::pi);
+        const auto exceeds = [&](std::size_t c, double value, double solid_angle) {
+            return value > kBrightOverMean * flux[c] / (4 * std::numbers::pi) &&
+                   value * solid_angle > kBrightShare * flux[c];
         };
-        const std::array<float, 3>& largest = rows[static_cast<std::size_t>(row)].largest;
-        if (!exceeds_mean(0, largest[0]) && !exceeds_mean(1, largest[1]) && !exceeds_mean(2, largest[2]))
+        const auto is_bright = [&](const auto& rgb, double solid_angle) {
+            return exceeds(0, rgb[0], solid_angle) || exceeds(1, rgb[1], solid_angle) ||
+                   exceeds(2, rgb[2], solid_angle);
+        };
+        if (!is_bright(rows[static_cast<std::size_t>(row)].largest, largest_solid_angle(source, row)))
             continue;
         const std::vector<double> weights = solid_angles(source, row);
-        for (int x = 0; x < row_width(source); ++x) {
-            const CubeTexel texel = texel_of(source, row, x);
-            const float* rgb = rgb_of(source, texel);
-            const auto is_bright = [&](std::size_t c) {
-                return exceeds_mean(c, rgb[c]) &&
-                       static_cast<double>(rgb[c]) * weights[static_cast<std::size_t>(x)] >
-                           kBrightShare * flux[c];
-            };
-            if (is_bright(0) || is_bright(1) || is_bright(2)) bright.push_back(texel);
-        }
+        for (int x = 0; x < row_width(source); ++x)
+            if (is_bright(row_of(source, row) + 3L * x, weights[static_cast<std::size_t>(x)]))
+                bright.push_back(texel_of(source, row, x));
     }
     return bright;
 }
@@ -185,19 +202,9 @@ double LdHarmonic::sphere_mean2() const {
 }
 
 int LdHarmonic::bands_for(double alpha, double max_error) {
-    // What uncorrelated texels of shares s of all light hold beyond degree l, over the mean and squared, is
-    // the sum of s^2 times that of (2l + 1) k_l^2. The first is at most about kBrightShare. The second is
-    // the integral of x^3 K1(x)^2 / (2 alpha^2) from x = 2 alpha l on for the peak; for the kink at the horizon,
-    // whose slope is at most that of a cosine lobe, k_l is at most 1.6 l^-5/2, and 0 for every other degree.
     const double allowed = kBeyondShare * kBeyondShare * max_error * max_error / kBrightShare;
-    const auto of_peak = [&](double x) {
-        return std::numbers::pi / 4 * x * (x + 2) * exp_exact(-2 * x) / (2 * alpha * alpha);
-    };
-    const GgxZonalKernel lobe(alpha);
-    const double slope = std::numbers::pi * lobe.normalisation() * 4 / std::pow(1 + alpha * alpha, 2);
-    const auto of_kink = [&](double l) { return 0.85 * slope * slope / (l * l * l); };
     int bands = 8;
-    while (of_peak(2 * alpha * bands) + of_kink(bands) > allowed) bands += 1 + bands / 64;
+    while (tail_of_peak(alpha, bands) + tail_of_kink(alpha, bands) > allowed) bands += 1 + bands / 64;
     return bands;
 }
 
@@ -208,7 +215,7 @@ LdHarmonic::Level::Level(const LdHarmonic& of, double alpha, const ForEach& each
     std::vector<double> kernel, kernel_of_bright;
     if (!is_narrow) {
         kernel = zonal_ggx(lobe, of.bands() + 1);
-        if (of.bright_spectrum_) kernel_of_bright = split_bright(of, lobe);
+        if (of.bright_spectrum_) kernel_of_bright = split_bright(of, lobe, kernel);
     } else {
         const SplitKernel split(lobe, SplitKernel::radius_for(of.bands(), of.max_error_));
         kernel = zonal_far(split, of.bands() + 1);
@@ -220,12 +227,17 @@ LdHarmonic::Level::Level(const LdHarmonic& of, double alpha, const ForEach& each
     bands_ = band_limit(of, kernel, kernel_of_bright);
     const std::size_t kept = static_cast<std::size_t>(bands_) + 1;
     std::vector<HarmonicGrid::Term> terms{{&*of.spectrum_, std::span(kernel).first(kept)}};
-    if (bright_split_) terms.push_back({&*of.bright_spectrum_, std::span(kernel_of_bright).first(kept)});
+    if (!kernel_of_bright.empty())
+        terms.push_back({&*of.bright_spectrum_, std::span(kernel_of_bright).first(kept)});
     const double mean = std::sqrt(of.sphere_mean2() / (12 * std::numbers::pi));
-    grid_.emplace(terms, mean > 0 ? kInterpolationShare * of.max_error_ * mean : 1, each);
+    const double scale = mean > 0 ? mean : 1, share = kInterpolationShare * of.max_error_;
+    const double of_turns = std::min(share, kTurnError);
+    grid_.emplace(terms, HarmonicGrid::Error{scale * (of.equirect_.rgb ? share : of_turns), scale * of_turns},
+                  each);
 }
 
-std::vector<double> LdHarmonic::Level::split_bright(const LdHarmonic& of, const GgxZonalKernel& lobe) {
+std::vector<double> LdHarmonic::Level::split_bright(const LdHarmonic& of, const GgxZonalKernel& lobe,
+                                                    const std::vector<double>& whole) {
     // Beyond the degrees that are known, bright texels go on as they do in the last quarter of them.
     const int bands = of.bands();
     double power = 0, orders = 0;
@@ -233,14 +245,24 @@ std::vector<double> LdHarmonic::Level::split_bright(const LdHarmonic& of, const 
         power += of.bright_powers_[static_cast<std::size_t>(l)];
         orders += 2 * l + 1;
     }
-    const double allowed = kBeyondShare * kBeyondShare * of.max_error_ * of.max_error_ * of.sphere_mean2();
-    for (double radius = SplitKernel::radius_for(bands, of.max_error_); radius < 0.6; radius *= 1.3) {
+    const double scale = of.sphere_mean2(), error = kBeyondShare * of.max_error_;
+    const double allowed = error * error * scale * orders / power;  // of one point with all light
+    const auto take = [&](double tail) { truncation_error_ = std::sqrt(tail * power / orders / scale); };
+    const double kink = tail_of_kink(alpha_, bands), tail = tail_of_peak(alpha_, bands) + kink;
+    if (tail <= allowed) {
+        take(tail);
+        bright_ = nullptr;
+        return whole;
+    }
+    if (kink > allowed) return {};  // which splitting doesn't mend
+    const double first = SplitKernel::radius_for(bands, std::sqrt(allowed));
+    for (double radius = first; radius < std::min(0.6, 2 * first); radius *= 1.3) {
         const SplitKernel split(lobe, radius);
         std::vector<double> far = zonal_far(split, bands + 1);
-        const double lost = zonal_far_tail(split, far) * power / orders;
-        if (lost > allowed) continue;
+        const double far_tail = zonal_far_tail(split, far);
+        if (far_tail > allowed) continue;
+        take(far_tail);
         bright_split_ = split;
-        truncation_error_ = std::sqrt(lost / of.sphere_mean2());
         return far;
     }
     return {};
@@ -256,7 +278,8 @@ int LdHarmonic::Level::band_limit(const LdHarmonic& of, std::span<const double> 
     for (; bands > 0; --bands) {
         const std::size_t l = static_cast<std::size_t>(bands);
         double more = lost + kernel[l] * kernel[l] * of.powers_[l];
-        if (bright_split_) more += kernel_of_bright[l] * kernel_of_bright[l] * of.bright_powers_[l];
+        if (!kernel_of_bright.empty())
+            more += kernel_of_bright[l] * kernel_of_bright[l] * of.bright_powers_[l];
         if (more > allowed) break;
         lost = more;
     }

@@ -22,9 +22,12 @@ double texel_angle_of(const EquirectView& source) {
     return std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height);
 }
 
-std::vector<QuadratureRule> rules_of_orders() {
-    std::vector<QuadratureRule> rules;
-    for (const int order : PatchBlocks::kOrders) rules.push_back(gauss_legendre(order));
+const std::vector<QuadratureRule>& rules_of_orders() {
+    static const std::vector<QuadratureRule> rules = [] {
+        std::vector<QuadratureRule> all;
+        for (const int order : PatchBlocks::kOrders) all.push_back(gauss_legendre(order));
+        return all;
+    }();
     return rules;
 }
 

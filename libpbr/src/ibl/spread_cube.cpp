@@ -63,14 +63,14 @@ void add_points(const CubeView& source, const std::array<float, 3>& constant, in
 
 }  // namespace
 
-FluxGrid spread_cube(const CubeView& source, const std::array<float, 3>& constant, int grid_rows,
-                     int points_a_side, std::span<const CubeTexel> without, const ForEach& each) {
-    FluxGrid grid(grid_rows);
+FluxGrid spread_cube(const CubeView& source, const PicturePart& part, int grid_columns, int points_a_side,
+                     const ForEach& each) {
+    FluxGrid grid((grid_columns / 2 + 1) / 2 * 2, grid_columns);
     const int rows = grid.rows(), columns = grid.columns();
     const QuadratureRule rule = gauss_legendre(points_a_side);
     std::vector<std::vector<Point>> of_row(static_cast<std::size_t>(6) * source.size);
     each(6 * source.size, [&](int i) {
-        add_points(source, constant, i / source.size, i % source.size, rule, columns, rows, without,
+        add_points(source, part.constant, i / source.size, i % source.size, rule, columns, rows, part.without,
                    of_row[static_cast<std::size_t>(i)]);
     });
     // By grid rows, in the order of the texels, so that sums don't depend on who computes them.

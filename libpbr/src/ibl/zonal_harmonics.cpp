@@ -33,8 +33,8 @@ struct ZonalRule {
     std::vector<double> mu, weight, value;  ///< value of the kernel
 };
 
-/// A rule for a kernel that is 0 below the horizon, as wide as `width_of_core` at its core and smooth but at one
-/// angle, times Legendre polynomials below degree `bands`.
+/// A rule for a kernel that is 0 below the horizon, as wide as `width_of_core` at its core and smooth but at
+/// one angle, times Legendre polynomials below degree `bands`.
 template <class Kernel>
 ZonalRule zonal_rule(const Kernel& kernel, double width_of_core, double break_rad, int bands) {
     assert(bands >= 1);

@@ -74,8 +74,8 @@ void add_points_of(const PatchPoints& points, std::size_t first, std::size_t las
                 const V mu = hn::Max(hn::Zero(d), hn::Sub(one, one_minus_mu));
                 const V f = hn::Add(a2, hn::Mul(slope, chord2));
                 const V whole = hn::Div(hn::Mul(mu, factor), hn::Mul(f, f));
-                const V k = hn::Mul(near_part<is_near>(d, kernel, whole, one_minus_mu),
-                                    hn::Set(d, points.weight[i]));
+                const V k =
+                    hn::Mul(near_part<is_near>(d, kernel, whole, one_minus_mu), hn::Set(d, points.weight[i]));
                 sum[0] = hn::Add(sum[0], hn::Mul(k, hn::Set(d, points.r[i])));
                 sum[1] = hn::Add(sum[1], hn::Mul(k, hn::Set(d, points.g[i])));
                 sum[2] = hn::Add(sum[2], hn::Mul(k, hn::Set(d, points.b[i])));
@@ -116,7 +116,8 @@ struct Bundle {
     explicit Bundle(std::span<const glm::dvec3> directions) : axis(0), reach(0) {
         for (const glm::dvec3& n : directions) axis += n;
         axis = glm::normalize(axis + directions[0] * 1e-9);
-        for (const glm::dvec3& n : directions) reach = std::max(reach, glm::length(n - axis));
+        for (const glm::dvec3& n : directions) reach = std::max(reach, glm::dot(n - axis, n - axis));
+        reach = std::sqrt(reach);
     }
     /// At most the angle between the bundle and a cone. Chords are shorter than angles.
     double nearest(const Cone& cone) const {

@@ -38,7 +38,7 @@ class BrightTexels {
                          std::span<const glm::dvec3> directions, std::span<double> rgb_out) const;
 
     PatchBlocks texels_;
-    std::vector<int> by_height_;  ///< texels by the y of their axes
+    std::vector<int> by_height_;           ///< texels by the y of their axes
     std::array<PatchPoints, kKept> kept_;  ///< of all texels, one after the other
 };
 

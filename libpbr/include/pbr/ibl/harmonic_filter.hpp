@@ -9,6 +9,7 @@
 //     level.sample(direction, rgb);
 
 #include <array>
+#include <complex>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -25,13 +26,16 @@ class RingModes;
 
 /// How a picture is transformed.
 struct HarmonicRule {
-    int bands;              ///< highest degree, >= 0
-    int points_a_row;       ///< Gauss-Legendre points a row of texels, >= 1
-    int grid_rows = 1 << 30;  ///< of the grid that finer pictures are spread over, even; cube maps need one
+    int bands;         ///< highest degree, >= 0
+    int points_a_row;  ///< Gauss-Legendre points a row of texels, >= 1
+    /// Of the grid that finer pictures are spread over, even; cube maps need one, which has half as many rows
+    /// as columns.
+    int grid_rows = 1 << 30, grid_columns = 1 << 30;
 };
 
 /// The rule for pictures of `height` rows and kernels of width alpha in (0, 1]: the fewest points and the
-/// coarsest grid that move a filtered value by less than about max_error / 10 of the picture's contrast, each.
+/// coarsest grid that move a filtered value by less than about max_error / 10 of the picture's contrast,
+/// each; by 5e-6 in azimuth, so that a turned picture has the same values, turned.
 HarmonicRule harmonic_rule(int height, int bands, double alpha, double max_error);
 
 /// Which texels are left out (face 0 of an equirect, rows ascending): they count as black. And what is
@@ -47,11 +51,11 @@ struct PicturePart {
 /// azimuth 2 pi u, colatitude pi v. Orders below 0 are their conjugates, the picture being real.
 class HarmonicSpectrum {
   public:
-    /// Transforms a picture that is constant over each texel: exactly in azimuth, in colatitude by Gauss-Legendre
-    /// points weighted by sine, which sum to the row's exact area. Relative error of a coefficient below 1e-12
-    /// apart from the points; but pictures of more rows than the rule's grid are spread over that first, by
-    /// the transpose of 6 x 6 interpolation, in float: at degree l that moves coefficients by a share of
-    /// .0024 (pi l / grid_rows)^6, and by 3e-7 of the largest.
+    /// Transforms a picture that is constant over each texel: exactly in azimuth, in colatitude by
+    /// Gauss-Legendre points weighted by sine, which sum to the row's exact area. Relative error of a
+    /// coefficient below 1e-12 apart from the points; but pictures of more rows than the rule's grid are
+    /// spread over that first, by the transpose of 6 x 6 interpolation, in float: at degree l that moves
+    /// coefficients by a share of .0024 (pi l / grid_rows)^6, and by 3e-7 of the largest.
     HarmonicSpectrum(const EquirectView& source, const HarmonicRule& rule, const ForEach& each,
                      const PicturePart& part = {});
 
@@ -88,7 +92,7 @@ class HarmonicSpectrum {
     HarmonicSpectrum(int bands, const glm::dmat3& world_to_source, const std::array<float, 3>& constant);
     void integrate(RingModes& modes, const std::vector<double>& colatitudes_rad,
                    const std::vector<double>& weights, int points_a_ring, const ForEach& each);
-    void integrate_grid(const FluxGrid& grid, const std::vector<double>& factors, const ForEach& each);
+    void integrate_grid(const FluxGrid& grid, std::vector<std::complex<double>> factors, const ForEach& each);
     void add_constant();
     std::size_t start(int order) const;
     int bands_;
@@ -106,9 +110,14 @@ class HarmonicGrid {
         std::span<const double> kernel;
     };
 
-    /// The sum of fields with coefficients kernel[l] E_lm, at least one, all in one frame; the grid is as fine
-    /// as interpolation needs to err by `max_error` > 0, root mean square over the sphere.
-    HarmonicGrid(std::span<const Term> terms, double max_error, const ForEach& each);
+    /// Root mean square over the sphere of what interpolation between rows and columns may err by, > 0.
+    struct Error {
+        double of_rows, of_columns;
+    };
+
+    /// The sum of fields with coefficients kernel[l] E_lm, at least one, all in one frame, on the coarsest
+    /// grid that errs by no more than is allowed.
+    HarmonicGrid(std::span<const Term> terms, const Error& allowed, const ForEach& each);
 
     /// RGB in world directions (unit), interpolated from 6 x 6 grid points; `rgb_out` holds 3 floats each.
     /// Rounding to float adds about 2e-7 of what the field varies by; a constant has no error but its own.
@@ -123,7 +132,7 @@ class HarmonicGrid {
     long stride_;
     glm::dmat3 world_to_source_;
     std::array<float, 3> constant_;  ///< not on the grid
-    std::vector<float> texels_;  ///< RGBA with a border that wraps
+    std::vector<float> texels_;      ///< RGBA with a border that wraps
 };
 
 }  // namespace pbr

@@ -48,8 +48,8 @@ class SplitKernel {
 /// Absolute error below 1e-12.
 std::vector<double> zonal_far(const SplitKernel& split, int bands);
 
-/// The sum of (2l + 1) k_l^2 over the degrees that zonal_far(split, bands) hasn't, by Parseval's theorem: its root
-/// is the error over the mean, root mean square, of leaving these out where all light is one point.
+/// The sum of (2l + 1) k_l^2 over the degrees that zonal_far(split, bands) hasn't, by Parseval's theorem: its
+/// root is the error over the mean, root mean square, of leaving these out where all light is one point.
 /// Absolute error below 1e-10.
 double zonal_far_tail(const SplitKernel& split, std::span<const double> coefficients);
 
