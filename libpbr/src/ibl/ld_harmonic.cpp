@@ -202,7 +202,8 @@ double LdHarmonic::sphere_mean2() const {
 }
 
 int LdHarmonic::bands_for(double alpha, double max_error) {
-    const double allowed = kBeyondShare * kBeyondShare * max_error * max_error / kBrightShare;
+    const double error = kBeyondShare * std::max(max_error, 3e-6);  // less is lost in sums of floats
+    const double allowed = error * error / kBrightShare;
     int bands = 8;
     while (tail_of_peak(alpha, bands) + tail_of_kink(alpha, bands) > allowed) bands += 1 + bands / 64;
     return bands;
