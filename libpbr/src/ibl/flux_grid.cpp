@@ -3,14 +3,10 @@
 #include <numbers>
 #include <utility>
 
-#include "src/ibl/lat_long_grid.hpp"
-
 namespace pbr {
 
-FluxGrid::FluxGrid(int bands)
-    : rows_(grid_rows(bands)),
-      columns_(2 * fast_fourier_size(rows_)),
-      flux_(static_cast<std::size_t>(rows_) * columns_ * 3) {}
+FluxGrid::FluxGrid(int rows, int columns)
+    : rows_(rows), columns_(columns), flux_(static_cast<std::size_t>(rows) * columns * 3) {}
 
 RingSource FluxGrid::rings(std::vector<std::complex<double>> factors) const {
     RingSource rings{columns_, rows_, {}, std::move(factors)};

@@ -16,8 +16,8 @@ namespace pbr {
 /// grid points of flux times a band-limited function is the integral of the picture times that function.
 class FluxGrid {
   public:
-    /// A dark grid for degrees up to `bands`, 2 points a degree where that is cheap.
-    explicit FluxGrid(int bands);
+    /// A dark grid; even numbers.
+    FluxGrid(int rows, int columns);
 
     int rows() const { return rows_; }
     int columns() const { return columns_; }
@@ -36,15 +36,14 @@ class FluxGrid {
     std::vector<double> flux_;
 };
 
-/// A cube map, each texel as points_a_side^2 Gauss-Legendre points that sum to its solid angle. Texels in
-/// `without` count as black.
-FluxGrid spread_cube(const CubeView& source, const glm::dvec3& constant, int bands, int points_a_side,
-                     std::span<const CubeTexel> without, const ForEach& each);
+/// A cube map, each texel as points_a_side^2 Gauss-Legendre points that sum to its solid angle.
+FluxGrid spread_cube(const CubeView& source, const PicturePart& part, int columns, int points_a_side,
+                     const ForEach& each);
 
-/// An equirect, each row as some Gauss-Legendre points of colatitude that sum to its area, each texel at its
-/// middle in azimuth and without its width there: 2 pi / width sinc(m / width) is left to the rings' factors.
-/// Sums in float.
-FluxGrid spread_equirect(const EquirectView& source, const std::array<float, 3>& constant, int bands,
-                         int points_a_row, std::span<const CubeTexel> without, const ForEach& each);
+/// An equirect, each row as some Gauss-Legendre points of colatitude that sum to its area, each texel without
+/// its width in azimuth: 2 pi / width sinc(m / width) is left to the rings' factors. As many columns as the
+/// picture has are its own, half a column on. Sums in float.
+FluxGrid spread_equirect(const EquirectView& source, const PicturePart& part, int rows, int columns,
+                         int points_a_row, const ForEach& each);
 
 }  // namespace pbr

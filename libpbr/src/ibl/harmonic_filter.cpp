@@ -4,8 +4,10 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
+#include "pbr/ibl/equirect_rows.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/fourier.hpp"
 #include "pbr/numerics/quadrature.hpp"
@@ -14,67 +16,12 @@
 #include "src/ibl/ring_modes.hpp"
 #include "src/simd/lat_long_kernel.hpp"
 #include "src/simd/legendre_kernel.hpp"
-#include "src/simd/spread_kernel.hpp"
 
 namespace pbr {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kElement = 2 * kFourierLanes;
-
-/// The texels of a sorted list that lie in a row.
-std::span<const CubeTexel> in_row(std::span<const CubeTexel> texels, int face, int y) {
-    const auto range = std::equal_range(texels.begin(), texels.end(), CubeTexel{face, 0, y},
-                                        [](const CubeTexel& p, const CubeTexel& q) {
-                                            return std::pair(p.face, p.y) < std::pair(q.face, q.y);
-                                        });
-    return {range.first, range.second};
-}
-
-/// The sum of a row's texels but those left out; these aren't subtracted afterwards, since they may dwarf the
-/// rest.
-glm::dvec3 row_sum(const float* row, int width, std::span<const CubeTexel> without) {
-    glm::dvec3 sum(0);
-    int from = 0;
-    const auto add_until = [&](int to) {
-        const std::array<double, 3> piece = row_light(row + 3L * from, to - from).sum;
-        sum += glm::dvec3(piece[0], piece[1], piece[2]);
-    };
-    for (const CubeTexel& texel : without) {
-        add_until(texel.x);
-        from = texel.x + 1;
-    }
-    add_until(width);
-    return sum;
-}
-
-std::array<float, 3> floats_of(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-/// The mean over the sphere. Transforms start from what a picture differs from it, so that a constant one has
-/// no error of quadrature at all.
-glm::dvec3 mean_of(const EquirectView& source, std::span<const CubeTexel> without, const ForEach& each) {
-    std::vector<glm::dvec3> rows(static_cast<std::size_t>(source.height));
-    each(source.height, [&](int y) {
-        rows[static_cast<std::size_t>(y)] = row_sum(source.texel(0, y), source.width, in_row(without, 0, y)) *
-                                            equirect_texel_solid_angle(source.width, source.height, y);
-    });
-    glm::dvec3 flux(0);
-    for (const glm::dvec3& row : rows) flux += row;
-    return flux / (4 * kPi);
-}
-
-/// The same of a cube map, every texel counting alike: near enough, whatever constant is taken out is put
-/// back.
-glm::dvec3 mean_of(const CubeView& source, std::span<const CubeTexel> without) {
-    glm::dvec3 sum(0);
-    for (int row = 0; row < 6 * source.size; ++row) {
-        const int face = row / source.size, y = row % source.size;
-        sum += row_sum(source.texel(face, 0, y), source.size, in_row(without, face, y));
-    }
-    return sum / (6.0 * source.size * source.size);
-}
 
 /// The integral of e^(i m phi) over a column about its middle, for orders 0 ... bands.
 std::vector<double> widths(int columns, int bands) {
@@ -86,35 +33,41 @@ std::vector<double> widths(int columns, int bands) {
     return result;
 }
 
-/// Rings of a picture less its mean, with the integral over each constant texel: its sinc, from the first
-/// texel's centre on.
-RingSource rings_of(const EquirectView& source, const glm::dvec3& mean, int bands,
-                    std::span<const CubeTexel> without) {
-    RingSource rings{source.width, source.height, {}, {}};
-    rings.read = [source, mean, without](int y, int channel, double* out) {
-        const float* texel = source.texel(0, y) + channel;
-        for (int x = 0; x < source.width; ++x)
-            out[x * kElement] = static_cast<double>(texel[x * 3]) - mean[channel];
-        for (const CubeTexel& black : in_row(without, 0, y)) out[black.x * kElement] = -mean[channel];
-    };
-    const std::vector<double> integrals = widths(source.width, bands);
+/// The same times e^(-i m phi) of the first column's middle.
+std::vector<std::complex<double>> texel_factors(int columns, int bands) {
+    std::vector<std::complex<double>> result;
+    const std::vector<double> integrals = widths(columns, bands);
     for (int m = 0; m <= bands; ++m) {
-        const SinCos angle = sin_cos_pi(static_cast<double>(m) / source.width);
+        const SinCos angle = sin_cos_pi(static_cast<double>(m) / columns);
         const double scale = integrals[static_cast<std::size_t>(m)];
-        rings.factors.emplace_back(scale * angle.cos, -scale * angle.sin);
+        result.emplace_back(scale * angle.cos, -scale * angle.sin);
     }
+    return result;
+}
+
+/// Rings of a picture less its constant, with the integral over each constant texel: its sinc, from the first
+/// texel's centre on. Refers to `rows`.
+RingSource rings_of(const EquirectView& source, const EquirectRows& rows,
+                    const std::array<float, 3>& constant, int bands) {
+    RingSource rings{source.width, source.height, {}, {}};
+    rings.read = [&rows, constant, width = source.width](int y, int channel, double* out) {
+        const double taken = static_cast<double>(constant[static_cast<std::size_t>(channel)]);
+        const float* texel = rows.row(y) + channel;
+        for (int x = 0; x < width; ++x) out[x * kElement] = static_cast<double>(texel[x * 3]) - taken;
+    };
+    rings.factors = texel_factors(source.width, bands);
     return rings;
 }
 
-/// The points of all northern rows, and their weights.
+/// The points of some northern rows, and their weights.
 struct RowPoints {
     std::vector<double> colatitudes_rad, weights;
 };
 
-RowPoints row_points(int height, int points) {
+RowPoints row_points(int height, int points, const std::vector<int>& rows) {
     const QuadratureRule rule = gauss_legendre(points);
     RowPoints result;
-    for (int y = 0; y < (height + 1) / 2; ++y) {
+    for (const int y : rows) {
         double sum = 0;
         const std::size_t first = result.weights.size();
         for (int i = 0; i < points; ++i) {
@@ -132,14 +85,13 @@ RowPoints row_points(int height, int points) {
     return result;
 }
 
-}  // namespace
-
-int points_a_row(int height, double alpha, double max_error) {
+/// Points a row of a picture for kernels of width alpha.
+int points_a_row(int height, double alpha, double allowed) {
     // A Gauss rule of n points acts on degree l as the exact mean over a row of height h up to
     //   (l h)^(2n) n!^4 / ((2n + 1) (2n)!^3),
     // and k_l = x K1(x), x = 2 alpha l, weights it: x^(2n+1) K1(x) is at most 1.16, 11 and 260 for n = 1,
     // 2, 3. Rows wider than the lobe need a point for every two radians of l h, and k_l is 1e-5 at x = 13.
-    const double reach = kPi / height / (2 * alpha), allowed = max_error / 10;
+    const double reach = kPi / height / (2 * alpha);
     if (1.16 * reach * reach / 24 < allowed) return 1;
     const double reach2 = reach * reach;
     if (11 * reach2 * reach2 / 4320 < allowed) return 2;
@@ -147,41 +99,108 @@ int points_a_row(int height, double alpha, double max_error) {
     return std::max(4, static_cast<int>(std::ceil(6.5 * reach)) + 2);
 }
 
-HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, int bands, int points_a_row,
-                                   const ForEach& each, std::span<const CubeTexel> without)
-    : HarmonicSpectrum(bands, source.world_to_source) {
-    assert(points_a_row >= 1);
-    // Rounded to float: then what is left of a constant picture is 0 in both arithmetics.
-    const std::array<float, 3> constant = floats_of(mean_of(source, without, each));
-    const glm::dvec3 mean(constant[0], constant[1], constant[2]);
-    if (source.height > 3 * grid_rows(bands) / 2) {  // finer than such a field needs
-        const FluxGrid grid = spread_equirect(source, constant, bands, points_a_row, without, each);
-        integrate_grid(grid, widths(source.width, bands), each);
+/// The pairs of rows, a northern one and its mirror image, that hold any of some texels.
+std::vector<int> pairs_with(std::span<const CubeTexel> texels, int height) {
+    std::vector<int> pairs;
+    for (const CubeTexel& texel : texels) pairs.push_back(std::min(texel.y, height - 1 - texel.y));
+    std::ranges::sort(pairs);
+    pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+    return pairs;
+}
+
+/// As analyse_rings(rings_of()) of a picture that is black but for some texels, for the given pairs of rows.
+RingModes analyse_texels(const EquirectView& source, std::span<const CubeTexel> texels,
+                         const std::vector<int>& pairs, int bands, const ForEach& each) {
+    std::vector<SinCos> turns;  // by half texels
+    for (int i = 0; i < 2 * source.width; ++i)
+        turns.push_back(sin_cos_pi(static_cast<double>(i) / source.width));
+    const std::vector<double> integrals = widths(source.width, bands);
+    RingModes modes(bands + 1, static_cast<int>(pairs.size()));
+    each(bands + 1, [&](int m) {
+        for (const CubeTexel& texel : texels) {
+            const int mirrored = source.height - 1 - texel.y;
+            const auto pair = std::ranges::lower_bound(pairs, std::min(texel.y, mirrored)) - pairs.begin();
+            const SinCos& turn =
+                turns[static_cast<std::size_t>((2L * texel.x + 1) * m % (2L * source.width))];
+            const double width = integrals[static_cast<std::size_t>(m)];
+            // A middle row counts as north and south.
+            const double north = texel.y <= mirrored ? width : 0, south = texel.y >= mirrored ? width : 0;
+            for (int channel = 0; channel < 3; ++channel) {
+                const double value = static_cast<double>(source.texel(texel.x, texel.y)[channel]);
+                modes.part(m, 0, 2 * channel)[pair] += (north + south) * value * turn.cos;
+                modes.part(m, 0, 2 * channel + 1)[pair] -= (north + south) * value * turn.sin;
+                modes.part(m, 1, 2 * channel)[pair] += (north - south) * value * turn.cos;
+                modes.part(m, 1, 2 * channel + 1)[pair] -= (north - south) * value * turn.sin;
+            }
+        }
+    });
+    return modes;
+}
+
+}  // namespace
+
+HarmonicRule harmonic_rule(int height, int bands, double alpha, double max_error) {
+    // x^7 K1(x) is at most 382: the weight of (l h)^6 at h = 2 alpha.
+    const auto rows_for = [&](double allowed) {
+        return grid_rows(2 * alpha * grid_step(allowed, 382), bands);
+    };
+    const double allowed = max_error / 10;
+    return {bands, points_a_row(height, alpha, allowed), rows_for(allowed),
+            grid_columns(rows_for(std::min(allowed, 5e-6)))};
+}
+
+HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, const HarmonicRule& rule, const ForEach& each,
+                                   const PicturePart& part)
+    : HarmonicSpectrum(rule.bands, source.world_to_source, part.constant) {
+    assert(rule.points_a_row >= 1);
+    if (source.height > rule.grid_rows) {
+        const bool keeps_columns = source.width <= rule.grid_columns && source.width % 2 == 0;
+        const FluxGrid grid =
+            spread_equirect(source, part, rule.grid_rows, keeps_columns ? source.width : rule.grid_columns,
+                            rule.points_a_row, each);
+        const std::vector<double> centred = widths(source.width, bands_);
+        integrate_grid(grid,
+                       keeps_columns ? texel_factors(source.width, bands_)
+                                     : std::vector<std::complex<double>>(centred.begin(), centred.end()),
+                       each);
     } else {
-        RingModes modes = analyse_rings(rings_of(source, mean, bands, without), each);
-        const RowPoints points = row_points(source.height, points_a_row);
-        integrate(modes, points.colatitudes_rad, points.weights, points_a_row, each);
+        const EquirectRows texels(source, part.without);
+        RingModes modes = analyse_rings(rings_of(source, texels, part.constant, bands_), each);
+        std::vector<int> rows(static_cast<std::size_t>(source.height + 1) / 2);
+        std::iota(rows.begin(), rows.end(), 0);
+        const RowPoints points = row_points(source.height, rule.points_a_row, rows);
+        integrate(modes, points.colatitudes_rad, points.weights, rule.points_a_row, each);
     }
-    add_constant(mean);
+    add_constant();
 }
 
-HarmonicSpectrum::HarmonicSpectrum(const CubeView& source, int bands, int points_a_side, const ForEach& each,
-                                   std::span<const CubeTexel> without)
-    : HarmonicSpectrum(bands, glm::dmat3(1)) {
-    assert(points_a_side >= 1);
-    const glm::dvec3 mean = mean_of(source, without);
-    const FluxGrid grid = spread_cube(source, mean, bands, points_a_side, without, each);
-    integrate_grid(grid, std::vector<double>(static_cast<std::size_t>(bands) + 1, 1.0), each);
-    add_constant(mean);
+HarmonicSpectrum::HarmonicSpectrum(const CubeView& source, const HarmonicRule& rule, const ForEach& each,
+                                   const PicturePart& part)
+    : HarmonicSpectrum(rule.bands, glm::dmat3(1), part.constant) {
+    assert(rule.points_a_row >= 1);
+    const FluxGrid grid = spread_cube(source, part, rule.grid_columns, rule.points_a_row, each);
+    integrate_grid(grid, std::vector<std::complex<double>>(static_cast<std::size_t>(bands_) + 1, 1.0), each);
+    add_constant();
 }
 
-void HarmonicSpectrum::add_constant(const glm::dvec3& value) {
+HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, std::span<const CubeTexel> texels,
+                                   const HarmonicRule& rule, const ForEach& each)
+    : HarmonicSpectrum(rule.bands, source.world_to_source, {}) {
+    const std::vector<int> pairs = pairs_with(texels, source.height);
+    RingModes modes = analyse_texels(source, texels, pairs, bands_, each);
+    const RowPoints points = row_points(source.height, rule.points_a_row, pairs);
+    integrate(modes, points.colatitudes_rad, points.weights, rule.points_a_row, each);
+}
+
+void HarmonicSpectrum::add_constant() {
     for (std::size_t c = 0; c < 3; ++c)
-        coefficients_[2 * c] += value[static_cast<int>(c)] * std::sqrt(4 * kPi);
+        coefficients_[2 * c] += static_cast<double>(constant_[c]) * std::sqrt(4 * kPi);
 }
 
-HarmonicSpectrum::HarmonicSpectrum(int bands, const glm::dmat3& world_to_source)
+HarmonicSpectrum::HarmonicSpectrum(int bands, const glm::dmat3& world_to_source,
+                                   const std::array<float, 3>& constant)
     : bands_(bands),
+      constant_(constant),
       world_to_source_(world_to_source),
       coefficients_(static_cast<std::size_t>(bands + 1) * (bands + 2) / 2 * kParts) {
     assert(bands >= 0);
@@ -205,9 +224,9 @@ void HarmonicSpectrum::integrate(RingModes& modes, const std::vector<double>& co
     });
 }
 
-void HarmonicSpectrum::integrate_grid(const FluxGrid& grid, const std::vector<double>& factors,
+void HarmonicSpectrum::integrate_grid(const FluxGrid& grid, std::vector<std::complex<double>> factors,
                                       const ForEach& each) {
-    RingModes modes = analyse_rings(grid.rings({factors.begin(), factors.end()}), each);
+    RingModes modes = analyse_rings(grid.rings(std::move(factors)), each);
     const std::vector<double> colatitudes_rad = grid.colatitudes_rad();
     integrate(modes, colatitudes_rad, std::vector<double>(colatitudes_rad.size(), 1.0), 1, each);
 }
@@ -237,13 +256,66 @@ std::vector<double> HarmonicSpectrum::powers() const {
     return result;
 }
 
-HarmonicGrid::HarmonicGrid(const HarmonicSpectrum& spectrum, std::span<const double> kernel,
-                           const ForEach& each)
-    : world_to_source_(spectrum.world_to_source()) {
-    const int bands = static_cast<int>(kernel.size()) - 1;
-    assert(bands >= 0 && bands <= spectrum.bands());
-    rows_ = grid_rows(bands);
-    columns_ = 2 * fast_fourier_size(rows_);
+namespace {
+
+/// Coefficients of a field, [order] the parts of all its degrees, doubled where an order stands for its
+/// negative too.
+using FieldCoefficients = std::vector<std::vector<double>>;
+
+FieldCoefficients add_up(std::span<const HarmonicGrid::Term> terms, int bands, const ForEach& each) {
+    FieldCoefficients field(static_cast<std::size_t>(bands) + 1);
+    each(bands + 1, [&](int m) {
+        std::vector<double>& of_order = field[static_cast<std::size_t>(m)];
+        of_order.resize(static_cast<std::size_t>(bands + 1 - m) * kParts);
+        for (const HarmonicGrid::Term& term : terms) {
+            const std::span<const double> coefficients = term.spectrum->of_order(m);
+            const int degrees = static_cast<int>(term.kernel.size()) - m;
+            for (int i = 0; i < degrees * kParts; ++i)
+                of_order[static_cast<std::size_t>(i)] +=
+                    (m == 0 ? 1 : 2) * term.kernel[static_cast<std::size_t>(m + i / kParts)] *
+                    coefficients[static_cast<std::size_t>(i)];
+        }
+    });
+    return field;
+}
+
+/// Root mean square, over the sphere and the channels, of the field whose degrees are multiplied by l^6.
+double sixth_derivative(const FieldCoefficients& field) {
+    const int bands = static_cast<int>(field.size()) - 1;
+    std::vector<double> powers(field.size());
+    for (int m = 0; m <= bands; ++m) {
+        const std::vector<double>& of_order = field[static_cast<std::size_t>(m)];
+        for (std::size_t i = 0; i < of_order.size(); ++i)
+            powers[static_cast<std::size_t>(m) + i / kParts] += of_order[i] * of_order[i] / (m == 0 ? 1 : 2);
+    }
+    double sum = 0;
+    for (int l = 0; l <= bands; ++l) {
+        const double l2 = static_cast<double>(l) * l, l6 = l2 * l2 * l2;
+        sum += powers[static_cast<std::size_t>(l)] * l6 * l6;
+    }
+    return std::sqrt(sum / (12 * kPi));
+}
+
+}  // namespace
+
+HarmonicGrid::HarmonicGrid(std::span<const Term> terms, const Error& allowed, const ForEach& each)
+    : world_to_source_(terms[0].spectrum->world_to_source()) {
+    int bands = 0;
+    for (const Term& term : terms) bands = std::max(bands, static_cast<int>(term.kernel.size()) - 1);
+    FieldCoefficients field = add_up(terms, bands, each);
+    for (std::size_t c = 0; c < 3; ++c) {
+        double constant = 0;
+        for (const Term& term : terms)
+            constant += term.kernel[0] * static_cast<double>(term.spectrum->constant()[c]);
+        constant_[c] = static_cast<float>(constant);
+        field[0][2 * c] -= constant * std::sqrt(4 * kPi);
+    }
+    const double derivative = sixth_derivative(field);
+    const auto rows_for = [&](double error) {
+        return grid_rows(grid_step(error, std::max(derivative, 1e-12 * error)), bands);
+    };
+    rows_ = rows_for(allowed.of_rows);
+    columns_ = grid_columns(rows_for(allowed.of_columns));
     stride_ = columns_ + 2 * kBorder;
     texels_.resize(static_cast<std::size_t>(stride_) * (rows_ + 2 * kBorder) * 4);
 
@@ -253,14 +325,9 @@ HarmonicGrid::HarmonicGrid(const HarmonicSpectrum& spectrum, std::span<const dou
     const Rings rings(colatitudes);
     RingModes modes(bands + 1, pairs);
     each(bands + 1, [&](int m) {
-        const LegendreOrder legendre(m, bands);
-        std::vector<double> filtered(static_cast<std::size_t>(legendre.degrees()) * kParts);
-        const std::span<const double> coefficients = spectrum.of_order(m);
-        for (std::size_t i = 0; i < filtered.size(); ++i)
-            filtered[i] =
-                (m == 0 ? 1 : 2) * kernel[static_cast<std::size_t>(m) + i / kParts] * coefficients[i];
-        legendre_synthesise(rings, legendre, rings.first(m, std::max(1, bands)), filtered.data(),
-                            modes.part(m, 0, 0), modes.part(m, 1, 0));
+        legendre_synthesise(rings, LegendreOrder(m, bands), rings.first(m, std::max(1, bands)),
+                            field[static_cast<std::size_t>(m)].data(), modes.part(m, 0, 0),
+                            modes.part(m, 1, 0));
     });
 
     synthesise_rings(
@@ -296,6 +363,7 @@ void HarmonicGrid::sample(std::span<const glm::dvec3> directions, std::span<floa
     std::vector<glm::dvec2> points(directions.size());
     equirect_points(turned, points);
     interpolate(grid, points, rgb_out);
+    for (std::size_t i = 0; i < rgb_out.size(); ++i) rgb_out[i] += constant_[i % 3];
 }
 
 }  // namespace pbr

@@ -4,15 +4,32 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+
+#include "pbr/numerics/elementary.hpp"
+#include "pbr/numerics/fourier.hpp"
 
 namespace pbr {
 
-/// Rows for a field of degrees up to `bands`: two a degree while that is cheap, so that interpolation errs by
-/// less than 3e-5 where filtered fields hold something, and 1.25 at least.
-inline int grid_rows(int bands) {
-    const int rows = std::max(8, 5 * (bands + 2) / 4 + std::min(3 * bands / 4, 400));
-    return rows + rows % 2;
+/// Interpolation between points a step h apart errs by h^6 |Pi| / 720 times the sixth derivative, Pi the
+/// product of the six distances: on harmonics of degree l by this times (l h)^6, root mean square over places
+/// and over the directions in which waves run, both axes together.
+inline constexpr double kInterpolationError = 0.00235;
+
+/// The wider step whose interpolation error is `allowed` where (l h)^6 stands for h^6 times `sixth_power`.
+inline double grid_step(double allowed, double sixth_power) {
+    return exp_exact(log_exact(allowed / (kInterpolationError * sixth_power)) / 6);
 }
+
+/// Rows for a step, an even number, and enough to hold degrees up to `bands`.
+inline int grid_rows(double step, int bands) {
+    const int rows = std::max(bands + 2, static_cast<int>(std::ceil(std::numbers::pi / step)));
+    return std::max(8, rows + rows % 2);
+}
+
+/// Columns that lie as close as so many rows, an even number that is fast to transform.
+inline int grid_columns(int rows) { return 2 * fast_fourier_size(rows); }
 
 /// Weights of Lagrange's polynomial through the points -2 ... 3, at t in [0, 1].
 inline std::array<double, 6> lagrange_weights(double t) {

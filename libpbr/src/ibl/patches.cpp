@@ -30,9 +30,12 @@ double middle_of_area(int row, int height) {
     return row + 0.5 + std::numbers::pi / height / 12 * middle.cos / middle.sin;
 }
 
-std::vector<QuadratureRule> rules_of_orders() {
-    std::vector<QuadratureRule> rules;
-    for (const int order : PatchBlocks::kOrders) rules.push_back(gauss_legendre(order));
+const std::vector<QuadratureRule>& rules_of_orders() {
+    static const std::vector<QuadratureRule> rules = [] {
+        std::vector<QuadratureRule> all;
+        for (const int order : PatchBlocks::kOrders) all.push_back(gauss_legendre(order));
+        return all;
+    }();
     return rules;
 }
 

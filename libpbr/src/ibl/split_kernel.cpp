@@ -9,7 +9,7 @@
 
 namespace pbr {
 
-SplitKernel::SplitKernel(const GgxZonalKernel& kernel, double radius) : kernel_(kernel) {
+SplitKernel::SplitKernel(const GgxZonalKernel& kernel, double radius) : kernel_(kernel), radius_(radius) {
     assert(radius > 0 && radius < std::numbers::pi / 2);
     const double sine = sin_cos_pi(radius / (2 * std::numbers::pi)).sin;
     limit_ = 2 * sine * sine;

@@ -18,7 +18,7 @@ struct Point {
 };
 
 /// All points of one row of texels of a face; the texels left out count as black.
-void add_points(const CubeView& source, const glm::dvec3& constant, int face, int y,
+void add_points(const CubeView& source, const std::array<float, 3>& constant, int face, int y,
                 const QuadratureRule& rule, int columns, int rows, std::span<const CubeTexel> without,
                 std::vector<Point>& points) {
     const auto [left_out, end] = std::equal_range(without.begin(), without.end(), CubeTexel{face, 0, y},
@@ -54,22 +54,23 @@ void add_points(const CubeView& source, const glm::dvec3& constant, int face, in
         const double solid_angle = cubemap_texel_solid_angle(source.size, x, y);
         for (std::size_t k = first; k < points.size(); ++k) {
             const double flux = points[k].rgb[0] / sum * solid_angle;
-            for (int c = 0; c < 3; ++c)
-                points[k].rgb[c] = flux * ((black ? 0 : static_cast<double>(texel[c])) - constant[c]);
+            for (std::size_t c = 0; c < 3; ++c)
+                points[k].rgb[c] =
+                    flux * ((black ? 0 : static_cast<double>(texel[c])) - static_cast<double>(constant[c]));
         }
     }
 }
 
 }  // namespace
 
-FluxGrid spread_cube(const CubeView& source, const glm::dvec3& constant, int bands, int points_a_side,
-                     std::span<const CubeTexel> without, const ForEach& each) {
-    FluxGrid grid(bands);
+FluxGrid spread_cube(const CubeView& source, const PicturePart& part, int grid_columns, int points_a_side,
+                     const ForEach& each) {
+    FluxGrid grid((grid_columns / 2 + 1) / 2 * 2, grid_columns);
     const int rows = grid.rows(), columns = grid.columns();
     const QuadratureRule rule = gauss_legendre(points_a_side);
     std::vector<std::vector<Point>> of_row(static_cast<std::size_t>(6) * source.size);
     each(6 * source.size, [&](int i) {
-        add_points(source, constant, i / source.size, i % source.size, rule, columns, rows, without,
+        add_points(source, part.constant, i / source.size, i % source.size, rule, columns, rows, part.without,
                    of_row[static_cast<std::size_t>(i)]);
     });
     // By grid rows, in the order of the texels, so that sums don't depend on who computes them.

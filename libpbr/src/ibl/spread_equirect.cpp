@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "pbr/ibl/equirect_rows.hpp"
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/quadrature.hpp"
 #include "src/ibl/flux_grid.hpp"
@@ -72,40 +73,18 @@ std::vector<ColumnSum> column_sums(int width, int columns) {
     return sums;
 }
 
-/// A weighted sum of rows, in floats from what each differs from a constant: a constant picture sums to 0.
+/// Sums of rows are in floats, of what texels differ from the constant: a constant picture sums to 0.
 class RowSum {
   public:
-    RowSum(const EquirectView& source, const std::array<float, 3>& constant,
-           std::span<const CubeTexel> without, int margin)
-        : source_(source),
-          constant_(constant),
-          without_(without),
-          margin_(margin),
-          sums_((static_cast<std::size_t>(source.width) + 2 * margin) * 3 + 1) {}
-
-    /// Texels left out count as black.
-    void add(int row, float weight) {
-        const auto [left_out, end] =
-            std::equal_range(without_.begin(), without_.end(), CubeTexel{0, 0, row},
-                             [](const CubeTexel& p, const CubeTexel& q) { return p.y < q.y; });
-        int from = 0;
-        const auto add_until = [&](int to) {
-            add_scaled(source_.texel(from, row), to - from, weight, constant_, texel(from));
-        };
-        for (auto black = left_out; black != end; ++black) {
-            add_until(black->x);
-            for (std::size_t c = 0; c < 3; ++c) texel(black->x)[c] -= weight * constant_[c];
-            from = black->x + 1;
-        }
-        add_until(source_.width);
-    }
+    RowSum(int width, int margin)
+        : width_(width), margin_(margin), sums_((static_cast<std::size_t>(width) + 2 * margin) * 3 + 1) {}
 
     /// The sums from column 0 on, continued on both sides.
-    const float* wrapped() {
-        const int width = source_.width;
+    const float* of(std::span<const WeightedRow> rows, const std::array<float, 3>& constant) {
+        sum_rows(rows, width_, constant, texel(0));
         for (int k = 0; k < margin_; ++k) {
-            std::copy_n(texel((width - 1 - k % width)), 3, texel(-1 - k));
-            std::copy_n(texel(k % width), 3, texel(width + k));
+            std::copy_n(texel((width_ - 1 - k % width_)), 3, texel(-1 - k));
+            std::copy_n(texel(k % width_), 3, texel(width_ + k));
         }
         return texel(0);
     }
@@ -113,33 +92,35 @@ class RowSum {
   private:
     float* texel(int x) { return &sums_[static_cast<std::size_t>(x + margin_) * 3]; }
 
-    const EquirectView& source_;
-    std::array<float, 3> constant_;
-    std::span<const CubeTexel> without_;
-    int margin_;
+    int width_, margin_;
     std::vector<float> sums_;
 };
 
 }  // namespace
 
-FluxGrid spread_equirect(const EquirectView& source, const std::array<float, 3>& constant, int bands,
-                         int points_a_row, std::span<const CubeTexel> without, const ForEach& each) {
-    FluxGrid grid(bands);
-    const std::vector<std::vector<RowShare>> rows = row_shares(source.height, points_a_row, grid.rows());
-    const std::vector<ColumnSum> columns = column_sums(source.width, grid.columns());
+FluxGrid spread_equirect(const EquirectView& source, const PicturePart& part, int grid_rows, int grid_columns,
+                         int points_a_row, const ForEach& each) {
+    FluxGrid grid(grid_rows, grid_columns);
+    const EquirectRows rows(source, part.without);
+    const std::vector<std::vector<RowShare>> shares = row_shares(source.height, points_a_row, grid.rows());
+    const bool keeps_columns = grid_columns == source.width;
+    const std::vector<ColumnSum> columns =
+        keeps_columns ? std::vector<ColumnSum>() : column_sums(source.width, grid.columns());
     const int margin = padding(source.width, grid.columns());
     each(grid.rows(), [&](int y) {
         std::vector<double> rgb(static_cast<std::size_t>(grid.columns()) * 3);
+        RowSum sum(source.width, margin);
         for (const bool across : {false, true}) {
-            RowSum sum(source, constant, without, margin);
-            bool found = false;
-            for (const RowShare& share : rows[static_cast<std::size_t>(y)])
-                if (share.across == across) {
-                    sum.add(share.source_row, static_cast<float>(share.weight));
-                    found = true;
-                }
-            if (!found) continue;
-            sum_columns(sum.wrapped(), columns, rgb.data());
+            std::vector<WeightedRow> summands;
+            for (const RowShare& share : shares[static_cast<std::size_t>(y)])
+                if (share.across == across)
+                    summands.push_back({rows.row(share.source_row), static_cast<float>(share.weight)});
+            if (summands.empty()) continue;
+            const float* row = sum.of(summands, part.constant);
+            if (keeps_columns)
+                std::copy_n(row, rgb.size(), rgb.begin());
+            else
+                sum_columns(row, columns, rgb.data());
             const int turn = across ? grid.columns() / 2 : 0;
             for (int x = 0; x < grid.columns(); ++x)
                 for (std::size_t c = 0; c < 3; ++c)

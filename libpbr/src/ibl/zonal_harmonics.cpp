@@ -28,16 +28,21 @@ double zonal_cosine(int l) {
 
 namespace {
 
-/// k_0 ... of a kernel of 1 - mu that is 0 below the horizon, as wide as `width_of_core` at its core and
-/// smooth but at one angle.
+/// Points for integrals of a kernel of 1 - mu over the hemisphere; weights hold 2 pi sin(theta).
+struct ZonalRule {
+    std::vector<double> mu, weight, value;  ///< value of the kernel
+};
+
+/// A rule for a kernel that is 0 below the horizon, as wide as `width_of_core` at its core and smooth but at
+/// one angle, times Legendre polynomials below degree `bands`.
 template <class Kernel>
-std::vector<double> funk_hecke(const Kernel& kernel, double width_of_core, double break_rad, int bands) {
+ZonalRule zonal_rule(const Kernel& kernel, double width_of_core, double break_rad, int bands) {
     assert(bands >= 1);
     // Panels of the polar angle as wide as what happens there: the core's own width, half the distance beyond
     // it, and a wave of the highest band everywhere. Sixteen points leave rounding alone.
     static const QuadratureRule rule = gauss_legendre(16);
     const double wave = 2 * std::numbers::pi / bands;
-    std::vector<double> mu, weight;
+    ZonalRule points;
     for (double from = 0; from < std::numbers::pi / 2;) {
         const double end = from < break_rad * (1 - 1e-12) ? break_rad : std::numbers::pi / 2;
         const double rest = end - from, width = std::min(std::max(width_of_core, from / 2), wave);
@@ -45,20 +50,28 @@ std::vector<double> funk_hecke(const Kernel& kernel, double width_of_core, doubl
         for (int i = 0; i < rule.size(); ++i) {
             const double turns = (from + (last ? rest : width) * rule.nodes[i]) / std::numbers::pi;
             const SinCos half = sin_cos_pi(turns / 2), whole = sin_cos_pi(turns);
-            mu.push_back(whole.cos);
-            weight.push_back(rule.weights[i] * (last ? rest : width) * 2 * std::numbers::pi * whole.sin *
-                             kernel(2 * half.sin * half.sin));
+            points.mu.push_back(whole.cos);
+            points.weight.push_back(rule.weights[i] * (last ? rest : width) * 2 * std::numbers::pi *
+                                    whole.sin);
+            points.value.push_back(kernel(2 * half.sin * half.sin));
         }
         if (last && end > break_rad) break;
         from = last ? end : from + width;
     }
+    return points;
+}
+
+/// k_0 ... k_{bands-1}.
+std::vector<double> funk_hecke(const ZonalRule& rule, int bands) {
     // Bonnet's recurrence, all angles together.
-    std::vector<double> before(mu.size(), 0.0), now(mu.size(), 1.0), coefficients;
+    std::vector<double> before(rule.mu.size(), 0.0), now(rule.mu.size()), coefficients;
+    for (std::size_t i = 0; i < now.size(); ++i) now[i] = rule.weight[i] * rule.value[i];
     for (int l = 0; l < bands; ++l) {
+        const double a = (2 * l + 1.0) / (l + 1), b = static_cast<double>(l) / (l + 1);
         double sum = 0;
-        for (std::size_t i = 0; i < mu.size(); ++i) {
-            sum += weight[i] * now[i];
-            const double next = ((2 * l + 1) * mu[i] * now[i] - l * before[i]) / (l + 1);
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            sum += now[i];
+            const double next = a * rule.mu[i] * now[i] - b * before[i];
             before[i] = now[i];
             now[i] = next;
         }
@@ -67,17 +80,30 @@ std::vector<double> funk_hecke(const Kernel& kernel, double width_of_core, doubl
     return coefficients;
 }
 
+ZonalRule far_rule(const SplitKernel& split, int bands) {
+    const double cosine = 1 - split.limit(), sine = std::sqrt(split.limit() * (1 + cosine));
+    const double radius = atan2_exact(sine, cosine);
+    return zonal_rule([&](double x) { return split.far(x); }, std::max(split.kernel().alpha(), radius / 4),
+                      radius, bands);
+}
+
 }  // namespace
 
 std::vector<double> zonal_ggx(const GgxZonalKernel& kernel, int bands) {
-    return funk_hecke([&](double x) { return kernel.value(x); }, kernel.alpha(), 0, bands);
+    return funk_hecke(zonal_rule([&](double x) { return kernel.value(x); }, kernel.alpha(), 0, bands), bands);
 }
 
 std::vector<double> zonal_far(const SplitKernel& split, int bands) {
-    const double cosine = 1 - split.limit(), sine = std::sqrt(split.limit() * (1 + cosine));
-    const double radius = atan2_exact(sine, cosine);
-    return funk_hecke([&](double x) { return split.far(x); }, std::max(split.kernel().alpha(), radius / 4),
-                      radius, bands);
+    return funk_hecke(far_rule(split, bands), bands);
+}
+
+double zonal_far_tail(const SplitKernel& split, std::span<const double> coefficients) {
+    const ZonalRule rule = far_rule(split, static_cast<int>(coefficients.size()));
+    double square = 0, kept = 0;
+    for (std::size_t i = 0; i < rule.mu.size(); ++i) square += rule.weight[i] * rule.value[i] * rule.value[i];
+    for (std::size_t l = 0; l < coefficients.size(); ++l)
+        kept += (2 * static_cast<double>(l) + 1) * coefficients[l] * coefficients[l];
+    return std::max(0.0, 4 * std::numbers::pi * square - kept);
 }
 
 namespace {

@@ -9,11 +9,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "pbr/ibl/bright_texels.hpp"
 #include "pbr/ibl/zonal_kernel.hpp"
 #include "src/simd/ld_kernels.hpp"
+#include "src/simd/near_field_kernel.hpp"
 
 namespace pbr {
 #ifndef PBR_BRIGHT_TEXELS_GROUP_
@@ -32,10 +35,22 @@ namespace pbr {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Adds points [first, last) to a group. With its `normalisation`, k * weight is a share of the lobe, so that
+/// What a split kernel's far part takes off the lobe; 0 where it is all.
+template <bool is_near, class D, class V = hn::Vec<D>>
+HWY_INLINE V near_part(D d, const NearKernel& kernel, V whole, V one_minus_mu) {
+    if constexpr (!is_near) return whole;
+    const V t = hn::Sub(one_minus_mu, hn::Set(d, kernel.limit));
+    V far = hn::Set(d, kernel.polynomial[3]);
+    for (int n = 2; n >= 0; --n)
+        far = hn::Add(hn::Mul(far, t), hn::Set(d, kernel.polynomial[static_cast<std::size_t>(n)]));
+    return hn::IfThenElseZero(hn::Lt(t, hn::Zero(d)), hn::Sub(whole, far));
+}
+
+/// Adds points [first, last) to a group. With its normalisation, k * weight is a share of the lobe, so that
 /// radiances near the largest float don't overflow.
-void add_points(const PatchPoints& points, std::size_t first, std::size_t last, float alpha2,
-                float normalisation, BrightGroup& group) {
+template <bool is_near>
+void add_points_of(const PatchPoints& points, std::size_t first, std::size_t last, const NearKernel& kernel,
+                   BrightGroup& group) {
     constexpr std::size_t kFlush = 256;  // points summed in float before the sum moves on to double
     const hn::CappedTag<float, BrightGroup::kSize> d;
     const hn::Repartition<double, decltype(d)> wide;
@@ -43,8 +58,8 @@ void add_points(const PatchPoints& points, std::size_t first, std::size_t last, 
     using V = hn::Vec<decltype(d)>;
     const std::size_t lanes = hn::Lanes(d);
     // f = alpha^2 + (1 - alpha^2)/4 |n - d|^2 and mu = 1 - |n - d|^2 / 2 (see ibl/zonal_kernel.hpp).
-    const V a2 = hn::Set(d, alpha2), slope = hn::Set(d, (1 - alpha2) / 4), one = hn::Set(d, 1.0f),
-            half = hn::Set(d, 0.5f), factor = hn::Set(d, normalisation);
+    const V a2 = hn::Set(d, kernel.alpha2), slope = hn::Set(d, kernel.slope), one = hn::Set(d, 1.0f),
+            half = hn::Set(d, 0.5f), factor = hn::Set(d, kernel.normalisation);
     for (; first < last; first += kFlush) {
         const std::size_t end = std::min(last, first + kFlush);
         for (std::size_t begin = 0; begin < BrightGroup::kSize; begin += lanes) {
@@ -55,10 +70,12 @@ void add_points(const PatchPoints& points, std::size_t first, std::size_t last, 
                 const V dx = hn::Sub(nx, hn::Set(d, points.x[i])), dy = hn::Sub(ny, hn::Set(d, points.y[i])),
                         dz = hn::Sub(nz, hn::Set(d, points.z[i]));
                 const V chord2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-                const V mu = hn::Max(hn::Zero(d), hn::Sub(one, hn::Mul(half, chord2)));
+                const V one_minus_mu = hn::Mul(half, chord2);
+                const V mu = hn::Max(hn::Zero(d), hn::Sub(one, one_minus_mu));
                 const V f = hn::Add(a2, hn::Mul(slope, chord2));
+                const V whole = hn::Div(hn::Mul(mu, factor), hn::Mul(f, f));
                 const V k =
-                    hn::Div(hn::Mul(hn::Mul(mu, factor), hn::Set(d, points.weight[i])), hn::Mul(f, f));
+                    hn::Mul(near_part<is_near>(d, kernel, whole, one_minus_mu), hn::Set(d, points.weight[i]));
                 sum[0] = hn::Add(sum[0], hn::Mul(k, hn::Set(d, points.r[i])));
                 sum[1] = hn::Add(sum[1], hn::Mul(k, hn::Set(d, points.g[i])));
                 sum[2] = hn::Add(sum[2], hn::Mul(k, hn::Set(d, points.b[i])));
@@ -76,6 +93,14 @@ void add_points(const PatchPoints& points, std::size_t first, std::size_t last, 
     }
 }
 
+void add_points(const PatchPoints& points, std::size_t first, std::size_t last, const NearKernel& kernel,
+                BrightGroup& group) {
+    if (kernel.limit < 1)
+        add_points_of<true>(points, first, last, kernel, group);
+    else
+        add_points_of<false>(points, first, last, kernel, group);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pbr
 HWY_AFTER_NAMESPACE();
@@ -91,7 +116,8 @@ struct Bundle {
     explicit Bundle(std::span<const glm::dvec3> directions) : axis(0), reach(0) {
         for (const glm::dvec3& n : directions) axis += n;
         axis = glm::normalize(axis + directions[0] * 1e-9);
-        for (const glm::dvec3& n : directions) reach = std::max(reach, glm::length(n - axis));
+        for (const glm::dvec3& n : directions) reach = std::max(reach, glm::dot(n - axis, n - axis));
+        reach = std::sqrt(reach);
     }
     /// At most the angle between the bundle and a cone. Chords are shorter than angles.
     double nearest(const Cone& cone) const {
@@ -135,62 +161,126 @@ BrightTexels::BrightTexels(PatchBlocks texels) : texels_(std::move(texels)) {
                                            {&all.b, &points.b}})
                 to->insert(to->end(), from->begin(), from->end());
         }
+    by_height_.resize(static_cast<std::size_t>(texels_.count()));
+    std::iota(by_height_.begin(), by_height_.end(), 0);
+    std::ranges::stable_sort(by_height_, {}, [&](int texel) { return texels_.cone(texel).axis.y; });
 }
 
-std::uint64_t BrightTexels::integrate(double alpha, std::span<const glm::dvec3> directions,
-                                      std::span<double> rgb_out) const {
-    constexpr std::size_t kGroup = BrightGroup::kSize, kTogether = 4 * kGroup;
-    const float alpha2 = static_cast<float>(alpha * alpha),
-                normalisation = static_cast<float>(GgxZonalKernel(alpha).normalisation());
-    std::uint64_t evaluations = 0;
-    PatchPoints fresh;
-    for (std::size_t begin = 0; begin < directions.size(); begin += kTogether) {
-        const std::size_t end = std::min(directions.size(), begin + kTogether);
-        const Bundle together(directions.subspan(begin, end - begin));
-        std::vector<BrightGroup> groups;
-        std::vector<Bundle> bundles;
-        for (std::size_t i = begin; i < end; i += kGroup) {
-            const std::span<const glm::dvec3> own = directions.subspan(i, std::min(kGroup, end - i));
-            groups.push_back(group_of(own));
-            bundles.emplace_back(own);
+/// Directions in up to four groups that lie together, and their sums of one kernel.
+class BrightTexels::Sum {
+  public:
+    static constexpr std::size_t kTogether = 4 * BrightGroup::kSize;
+
+    Sum(const BrightTexels& of, const NearKernel& kernel, double alpha,
+        std::span<const glm::dvec3> directions)
+        : of_(of), kernel_(kernel), alpha_(alpha), together_(directions) {
+        for (std::size_t i = 0; i < directions.size(); i += BrightGroup::kSize) {
+            const std::span<const glm::dvec3> own =
+                directions.subspan(i, std::min(BrightGroup::kSize, directions.size() - i));
+            groups_.push_back(group_of(own));
+            bundles_.emplace_back(own);
         }
-        const auto add = [&](const PatchPoints& points, std::size_t first, std::size_t last,
-                             BrightGroup& group) {
-            HWY_DYNAMIC_DISPATCH(add_points)(points, first, last, alpha2, normalisation, group);
-            evaluations += (last - first) * kGroup;
-        };
+    }
+
+    void add_all() {
         // Texels far from all groups need one point, and runs of them go together.
-        std::size_t run = 0;
+        const int count = of_.texels_.count();
+        int run = 0;
         const auto finish_run = [&](int texel) {
-            for (BrightGroup& group : groups)
-                if (run > 0) add(kept_[0], static_cast<std::size_t>(texel) - run, texel, group);
+            for (BrightGroup& group : groups_)
+                if (run > 0) add(of_.kept_[0], texel - run, static_cast<std::size_t>(texel), group);
             run = 0;
         };
-        for (int texel = 0; texel < texels_.count(); ++texel) {
-            const Cone& cone = texels_.cone(texel);
-            const bool unseen = together.is_above(cone);
-            if (!unseen && ld_order_index(texels_.texel_angle(), alpha, together.nearest(cone)) == 0) {
+        for (int texel = 0; texel < count; ++texel) {
+            const Cone& cone = of_.texels_.cone(texel);
+            const bool unseen = together_.is_above(cone);
+            if (!unseen && order_index(together_.nearest(cone)) == 0) {
                 ++run;
                 continue;
             }
             finish_run(texel);
-            for (std::size_t g = 0; g < groups.size() && !unseen; ++g) {
-                const int index = ld_order_index(texels_.texel_angle(), alpha, bundles[g].nearest(cone));
-                if (index < kKept) {
-                    const auto count = static_cast<std::size_t>(PatchBlocks::kOrders[index]) *
-                                       static_cast<std::size_t>(PatchBlocks::kOrders[index]);
-                    add(kept_[static_cast<std::size_t>(index)], texel * count, (texel + 1) * count,
-                        groups[g]);
-                } else {
-                    texels_.points(texel, index, fresh);
-                    add(fresh, 0, fresh.size(), groups[g]);
-                }
+            if (!unseen) add_texel(texel, std::numbers::pi);
+        }
+        finish_run(count);
+    }
+
+    /// Texels within an angle of any direction alone.
+    void add_near(double radius) {
+        // Of two directions an angle apart, heights differ by no more.
+        const auto height = [&](int texel) { return of_.texels_.cone(texel).axis.y; };
+        const double apart = radius + Bundle::kArc * together_.reach + of_.texels_.texel_angle();
+        const auto first = std::ranges::lower_bound(of_.by_height_, together_.axis.y - apart, {}, height);
+        const auto last = std::ranges::upper_bound(of_.by_height_, together_.axis.y + apart, {}, height);
+        for (auto texel = first; texel != last; ++texel)
+            if (together_.nearest(of_.texels_.cone(*texel)) < radius) add_texel(*texel, radius);
+    }
+
+    /// The sum in one of the directions.
+    double sum(std::size_t direction, std::size_t channel) const {
+        return groups_[direction / BrightGroup::kSize].sum[channel][direction % BrightGroup::kSize];
+    }
+    std::uint64_t evaluations() const { return evaluations_; }
+
+  private:
+    int order_index(double nearest) const {
+        return ld_order_index(of_.texels_.texel_angle(), alpha_, nearest);
+    }
+
+    void add_texel(int texel, double radius) {
+        for (std::size_t g = 0; g < groups_.size(); ++g) {
+            const double nearest = bundles_[g].nearest(of_.texels_.cone(texel));
+            if (nearest > radius) continue;
+            const int index = order_index(nearest);
+            if (index < kKept) {
+                const auto count = static_cast<std::size_t>(PatchBlocks::kOrders[index]) *
+                                   static_cast<std::size_t>(PatchBlocks::kOrders[index]);
+                const std::size_t at = static_cast<std::size_t>(texel) * count;
+                add(of_.kept_[static_cast<std::size_t>(index)], at, at + count, groups_[g]);
+            } else {
+                of_.texels_.points(texel, index, fresh_);
+                add(fresh_, 0, fresh_.size(), groups_[g]);
             }
         }
-        finish_run(texels_.count());
-        for (std::size_t i = begin; i < end; ++i)
-            for (std::size_t c = 0; c < 3; ++c)
-                rgb_out[i * 3 + c] = groups[(i - begin) / kGroup].sum[c][(i - begin) % kGroup];
+    }
+
+    void add(const PatchPoints& points, std::size_t first, std::size_t last, BrightGroup& group) {
+        HWY_DYNAMIC_DISPATCH(add_points)(points, first, last, kernel_, group);
+        evaluations_ += (last - first) * BrightGroup::kSize;
+    }
+
+    const BrightTexels& of_;
+    const NearKernel& kernel_;
+    double alpha_;
+    Bundle together_;
+    std::vector<BrightGroup> groups_;
+    std::vector<Bundle> bundles_;
+    PatchPoints fresh_;
+    std::uint64_t evaluations_ = 0;
+};
+
+std::uint64_t BrightTexels::integrate(double alpha, std::span<const glm::dvec3> directions,
+                                      std::span<double> rgb_out) const {
+    return add_up(NearKernel(GgxZonalKernel(alpha)), alpha, std::numbers::pi, directions, rgb_out);
+}
+
+std::uint64_t BrightTexels::integrate(const SplitKernel& split, std::span<const glm::dvec3> directions,
+                                      std::span<double> rgb_out) const {
+    return add_up(NearKernel(split), split.kernel().alpha(), split.radius(), directions, rgb_out);
+}
+
+std::uint64_t BrightTexels::add_up(const NearKernel& kernel, double alpha, double radius,
+                                   std::span<const glm::dvec3> directions, std::span<double> rgb_out) const {
+    std::uint64_t evaluations = 0;
+    for (std::size_t begin = 0; begin < directions.size(); begin += Sum::kTogether) {
+        const std::size_t count = std::min(Sum::kTogether, directions.size() - begin);
+        Sum sum(*this, kernel, alpha, directions.subspan(begin, count));
+        if (kernel.limit < 1)
+            sum.add_near(radius);
+        else
+            sum.add_all();
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t c = 0; c < 3; ++c) rgb_out[(begin + i) * 3 + c] = sum.sum(i, c);
+        evaluations += sum.evaluations();
     }
     return evaluations;
 }

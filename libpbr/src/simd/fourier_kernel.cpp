@@ -42,6 +42,13 @@ HWY_INLINE Complex mul(const Complex& a, const double* w) {
     return {hn::Sub(hn::Mul(a.re, re), hn::Mul(a.im, im)), hn::Add(hn::Mul(a.re, im), hn::Mul(a.im, re))};
 }
 
+HWY_INLINE Complex scaled(const Complex& a, double by) {
+    const V factor = hn::Set(D(), by);
+    return {hn::Mul(a.re, factor), hn::Mul(a.im, factor)};
+}
+/// -i a
+HWY_INLINE Complex turned(const Complex& a) { return {a.im, hn::Neg(a.re)}; }
+
 /// One pass: sub-transforms of length n at stride s become those of length n / radix.
 struct Pass {
     const double* twiddles;  ///< of the whole size
@@ -82,12 +89,56 @@ void pass_4(const Pass& pass) {
                 const Complex a0 = load(pass.source(p, 0, q), lane), a1 = load(pass.source(p, 1, q), lane);
                 const Complex a2 = load(pass.source(p, 2, q), lane), a3 = load(pass.source(p, 3, q), lane);
                 const Complex even = add(a0, a2), even_difference = sub(a0, a2);
-                const Complex odd = add(a1, a3), d = sub(a1, a3);
-                const Complex turned{d.im, hn::Neg(d.re)};  // -i (a1 - a3)
+                const Complex odd = add(a1, a3), odd_difference = turned(sub(a1, a3));
                 store(add(even, odd), pass.target(p, 0, q), lane);
-                store(mul(add(even_difference, turned), w1), pass.target(p, 1, q), lane);
+                store(mul(add(even_difference, odd_difference), w1), pass.target(p, 1, q), lane);
                 store(mul(sub(even, odd), w2), pass.target(p, 2, q), lane);
-                store(mul(sub(even_difference, turned), w3), pass.target(p, 3, q), lane);
+                store(mul(sub(even_difference, odd_difference), w3), pass.target(p, 3, q), lane);
+            }
+    }
+}
+
+void pass_3(const Pass& pass) {
+    constexpr double kSine = 0.86602540378443864676;  // of a third of a turn; its cosine is -1/2
+    const int lanes = static_cast<int>(hn::Lanes(D()));
+    for (int p = 0; p < pass.n / 3; ++p) {
+        const long turn = static_cast<long>(p) * pass.s;
+        const double *w1 = pass.twiddle(turn), *w2 = pass.twiddle(2 * turn);
+        for (int q = 0; q < pass.s; ++q)
+            for (int lane = 0; lane < kFourierLanes; lane += lanes) {
+                const Complex a0 = load(pass.source(p, 0, q), lane), a1 = load(pass.source(p, 1, q), lane);
+                const Complex a2 = load(pass.source(p, 2, q), lane), sum = add(a1, a2);
+                const Complex even = sub(a0, scaled(sum, 0.5)), odd = turned(scaled(sub(a1, a2), kSine));
+                store(add(a0, sum), pass.target(p, 0, q), lane);
+                store(mul(add(even, odd), w1), pass.target(p, 1, q), lane);
+                store(mul(sub(even, odd), w2), pass.target(p, 2, q), lane);
+            }
+    }
+}
+
+void pass_5(const Pass& pass) {
+    constexpr double kCosine1 = 0.30901699437494742410, kCosine2 = -0.80901699437494742410;
+    constexpr double kSine1 = 0.95105651629515357212, kSine2 = 0.58778525229247312917;
+    const int lanes = static_cast<int>(hn::Lanes(D()));
+    for (int p = 0; p < pass.n / 5; ++p) {
+        const long turn = static_cast<long>(p) * pass.s;
+        for (int q = 0; q < pass.s; ++q)
+            for (int lane = 0; lane < kFourierLanes; lane += lanes) {
+                const auto from = [&](int j) HWY_ATTR { return load(pass.source(p, j, q), lane); };
+                const auto to = [&](int k, const Complex& z) HWY_ATTR {
+                    store(mul(z, pass.twiddle(k * turn)), pass.target(p, k, q), lane);
+                };
+                const Complex a0 = from(0), a1 = from(1), a2 = from(2), a3 = from(3), a4 = from(4);
+                const Complex sum1 = add(a1, a4), sum2 = add(a2, a3), d1 = sub(a1, a4), d2 = sub(a2, a3);
+                const Complex even1 = add(a0, add(scaled(sum1, kCosine1), scaled(sum2, kCosine2)));
+                const Complex even2 = add(a0, add(scaled(sum1, kCosine2), scaled(sum2, kCosine1)));
+                const Complex odd1 = turned(add(scaled(d1, kSine1), scaled(d2, kSine2)));
+                const Complex odd2 = turned(sub(scaled(d1, kSine2), scaled(d2, kSine1)));
+                store(add(a0, add(sum1, sum2)), pass.target(p, 0, q), lane);
+                to(1, add(even1, odd1));
+                to(2, add(even2, odd2));
+                to(3, sub(even2, odd2));
+                to(4, sub(even1, odd1));
             }
     }
 }
@@ -118,6 +169,10 @@ void fourier_passes(const double* twiddles, int size, const std::vector<int>& ra
             pass_4(pass);
         else if (radix == 2)
             pass_2(pass);
+        else if (radix == 3)
+            pass_3(pass);
+        else if (radix == 5)
+            pass_5(pass);
         else
             pass_any(pass);
         pass.n /= radix;

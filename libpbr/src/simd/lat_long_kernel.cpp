@@ -64,7 +64,10 @@ HWY_INLINE void store_weights(D d, V t, float (*weights)[kPointLanes]) {
 void interpolate_points(const LatLongTexels& grid, std::span<const glm::dvec2> points,
                         std::span<float> rgb_out) {
     const hn::CappedTag<double, kPointLanes> d;
-    const hn::CappedTag<float, 4> d4;
+    // Lanes hold the channels of two neighbouring texels; pairs of columns are added up, and their halves
+    // last.
+    constexpr std::size_t kPair = 8;
+    const hn::CappedTag<float, kPair> dp;
     const std::size_t lanes = hn::Lanes(d);
     HWY_ALIGN_MAX double tx[kPointLanes], ty[kPointLanes];
     const float* corners[kPointLanes];
@@ -81,21 +84,24 @@ void interpolate_points(const LatLongTexels& grid, std::span<const glm::dvec2> p
         store_weights(d, hn::Load(d, tx), wx);
         store_weights(d, hn::Load(d, ty), wy);
         for (std::size_t i = 0; i < count; ++i) {
-            HWY_ALIGN float rgba[4];
-            for (std::size_t channel = 0; channel < 4; channel += hn::Lanes(d4)) {
-                auto sum = hn::Zero(d4);
+            HWY_ALIGN_MAX float sums[kPair];
+            for (std::size_t place = 0; place < kPair; place += hn::Lanes(dp)) {
+                const auto is_left = hn::FirstN(dp, place < 4 ? 4 - place : 0);
+                const auto weights = [&](int left) HWY_ATTR {
+                    return hn::IfThenElse(is_left, hn::Set(dp, wx[left][i]), hn::Set(dp, wx[left + 1][i]));
+                };
+                const auto w0 = weights(0), w1 = weights(2), w2 = weights(4);
+                auto sum = hn::Zero(dp);
                 for (int row = 0; row < 6; ++row) {
-                    const float* texel = corners[i] + row * grid.stride * 4 + channel;
-                    auto of_row = hn::Zero(d4);
-                    for (int column = 0; column < 6; ++column) {
-                        const auto value = hn::LoadU(d4, texel + column * 4);
-                        of_row = hn::Add(of_row, hn::Mul(hn::Set(d4, wx[column][i]), value));
-                    }
-                    sum = hn::Add(sum, hn::Mul(hn::Set(d4, wy[row][i]), of_row));
+                    const float* texel = corners[i] + row * grid.stride * 4 + place;
+                    auto of_row = hn::Mul(w0, hn::LoadU(dp, texel));
+                    of_row = hn::Add(of_row, hn::Mul(w1, hn::LoadU(dp, texel + kPair)));
+                    of_row = hn::Add(of_row, hn::Mul(w2, hn::LoadU(dp, texel + 2 * kPair)));
+                    sum = hn::Add(sum, hn::Mul(hn::Set(dp, wy[row][i]), of_row));
                 }
-                hn::Store(sum, d4, rgba + channel);
+                hn::Store(sum, dp, sums + place);
             }
-            std::copy_n(rgba, 3, &rgb_out[(first + i) * 3]);
+            for (std::size_t c = 0; c < 3; ++c) rgb_out[(first + i) * 3 + c] = sums[c] + sums[c + 4];
         }
     }
 }

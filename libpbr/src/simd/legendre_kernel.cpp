@@ -13,6 +13,7 @@
 
 #include "pbr/numerics/elementary.hpp"
 #include "src/simd/legendre_kernel.hpp"
+#include "src/simd/vector_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace pbr {
@@ -33,21 +34,19 @@ struct Recurrence {
 
     HWY_INLINE void start(const Rings& rings, const LegendreOrder& legendre, int ring, int stride) {
         const D d;
-        const int lanes = static_cast<int>(hn::Lanes(d));
-        HWY_ALIGN_MAX double mantissa[kRingLanes], shift[kRingLanes];
         scaled = false;
         for (int v = 0; v < count; ++v) {
             const int at = ring + v * stride;
-            for (int lane = 0; lane < lanes; ++lane) {
-                const double log2_p = legendre.log2_start + legendre.order * rings.log2_sine[at + lane];
-                shift[lane] = log2_p > -500 ? 0 : std::max(std::ceil(log2_p / 512), -1e6);
-                mantissa[lane] = exp_exact(std::max(log2_p - 512 * shift[lane], -900.0) * std::numbers::ln2);
-                scaled |= shift[lane] < 0;
-            }
+            const V log2_p = hn::Add(
+                hn::Set(d, legendre.log2_start),
+                hn::Mul(hn::Set(d, static_cast<double>(legendre.order)), hn::LoadU(d, &rings.log2_sine[at])));
+            const V shift = hn::Max(hn::Ceil(hn::Mul(log2_p, hn::Set(d, 1.0 / 512))), hn::Set(d, -1e6));
+            exponent[v] = hn::IfThenElseZero(hn::Le(log2_p, hn::Set(d, -500.0)), shift);
+            const V rest = hn::Sub(log2_p, hn::Mul(hn::Set(d, 512.0), exponent[v]));
             x[v] = hn::LoadU(d, &rings.cosine[at]);
-            now[v] = hn::Load(d, mantissa);
-            exponent[v] = hn::Load(d, shift);
+            now[v] = exp(d, hn::Mul(hn::Max(rest, hn::Set(d, -900.0)), hn::Set(d, std::numbers::ln2)));
             before[v] = hn::Zero(d);
+            scaled |= !hn::AllTrue(d, hn::Ge(exponent[v], hn::Zero(d)));
         }
     }
 
@@ -202,9 +201,9 @@ int Rings::first(int order, int bands) const {
 
 LegendreOrder::LegendreOrder(int order_in, int bands_in) : order(order_in), bands(bands_in) {
     // P_mm = sqrt((2m + 1) / 4 pi * product of (2k - 1) / 2k) sin^m
-    double product = 0;
-    for (int k = 1; k <= order; ++k) product += log2_exact(1 - 0.5 / k);
-    log2_start = (log2_exact((2.0 * order + 1) / (4 * std::numbers::pi)) + product) / 2;
+    double product = (2.0 * order + 1) / (4 * std::numbers::pi);
+    for (int k = 1; k <= order; ++k) product *= 1 - 0.5 / k;
+    log2_start = log2_exact(product) / 2;
     const double m2 = static_cast<double>(order) * order;
     for (int l = order; l <= bands; ++l) {
         const double l2 = static_cast<double>(l) * l, before = (l - 1.0) * (l - 1.0);

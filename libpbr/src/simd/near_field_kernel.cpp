@@ -189,21 +189,9 @@ NearField::NearField(const EquirectView& source, const glm::dvec3& constant,
       constant_{static_cast<float>(constant.x), static_cast<float>(constant.y),
                 static_cast<float>(constant.z)},
       split_(split),
-      radius_(2 * atan2_exact(std::sqrt(split.limit() / 2), std::sqrt(1 - split.limit() / 2))),
-      texel_angle_(std::max(2 * kPi / source.width, kPi / source.height)) {
-    for (int row = 0; row < source.height; ++row) rows_.push_back(source.texel(0, row));
-    int patched_rows = 0, last = -1;
-    for (const CubeTexel& texel : without) patched_rows += std::exchange(last, texel.y) != texel.y;
-    const std::size_t stride = static_cast<std::size_t>(source.width) * 3;
-    patched_.reserve(patched_rows * stride);
-    for (const CubeTexel& texel : without) {
-        const float*& row = rows_[static_cast<std::size_t>(texel.y)];
-        if (row == source.texel(0, texel.y)) {
-            patched_.insert(patched_.end(), row, row + stride);
-            row = patched_.data() + (patched_.size() - stride);
-        }
-        std::fill_n(patched_.begin() + (row - patched_.data()) + 3L * texel.x, 3, 0.0f);
-    }
+      radius_(split.radius()),
+      texel_angle_(std::max(2 * kPi / source.width, kPi / source.height)),
+      rows_(source, without) {
     // Gauss-Legendre over a texel of angle h converges once h is well below the distance of the kernel's
     // poles, about hypot(2 alpha, angle); of lobes narrower than texels it is that of the texel's edge.
     const double poles = 2 * split.kernel().alpha(), margin = poles < texel_angle_ ? texel_angle_ / 2 : 0;
@@ -216,13 +204,7 @@ NearField::NearField(const EquirectView& source, const glm::dvec3& constant,
 }
 
 std::uint64_t NearField::add(std::span<const glm::dvec3> directions, std::span<double> rgb) const {
-    const double alpha = split_.kernel().alpha(), alpha2 = alpha * alpha;
-    NearKernel kernel{static_cast<float>(alpha2),
-                      static_cast<float>((1 - alpha2) / 4),
-                      static_cast<float>(split_.kernel().normalisation()),
-                      static_cast<float>(split_.limit()),
-                      {}};
-    for (std::size_t n = 0; n < 4; ++n) kernel.polynomial[n] = static_cast<float>(split_.polynomial()[n]);
+    const NearKernel kernel(split_);
     const double sine_radius = sin_cos_pi(radius_ / kPi).sin;
     std::vector<std::vector<float>> squares(rules_.size() + 1);
     std::vector<glm::dvec3> turned;
@@ -233,8 +215,8 @@ std::uint64_t NearField::add(std::span<const glm::dvec3> directions, std::span<d
     for (std::size_t i = 0; i < turned.size(); ++i) {
         const glm::dvec3& n = turned[i];
         const double sine = std::sqrt(n.x * n.x + n.z * n.z), colatitude = points[i].y * kPi;
-        NearWindow window{rows_, source_.width, constant_, 0, 0, 0,
-                          0,     sine,          n.y,       0, 1, std::pow(radius_ + texel_angle_, 2)};
+        NearWindow window{rows_.all(), source_.width, constant_, 0, 0, 0,
+                          0,           sine,          n.y,       0, 1, std::pow(radius_ + texel_angle_, 2)};
         if (sine > 0) window.x = n.x / sine, window.z = n.z / sine;
         const double rows_a_radian = source_.height / kPi;
         window.top = std::max(0, static_cast<int>((colatitude - radius_) * rows_a_radian));

@@ -18,6 +18,21 @@ inline constexpr int kNearLanes = 8;
 struct NearKernel {
     float alpha2, slope, normalisation, limit;
     std::array<float, 4> polynomial;
+
+    /// A whole lobe: no polynomial, up to the horizon.
+    explicit NearKernel(const GgxZonalKernel& kernel)
+        : alpha2(static_cast<float>(kernel.alpha() * kernel.alpha())),
+          slope(static_cast<float>((1 - kernel.alpha() * kernel.alpha()) / 4)),
+          normalisation(static_cast<float>(kernel.normalisation())),
+          limit(1),
+          polynomial{} {}
+
+    /// The near part of a split one.
+    explicit NearKernel(const SplitKernel& split) : NearKernel(split.kernel()) {
+        limit = static_cast<float>(split.limit());
+        for (std::size_t n = 0; n < polynomial.size(); ++n)
+            polynomial[n] = static_cast<float>(split.polynomial()[n]);
+    }
 };
 
 /// A picture and where a direction's sum goes over it.

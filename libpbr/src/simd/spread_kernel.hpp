@@ -7,9 +7,15 @@
 
 namespace pbr {
 
-/// sums[i] += weight * (rgb[i] - constant of its channel) for texels of RGB.
-void add_scaled(const float* rgb, long texels, float weight, const std::array<float, 3>& constant,
-                float* sums);
+/// A row of RGB in a sum of rows.
+struct WeightedRow {
+    const float* rgb;
+    float weight;
+};
+
+/// sums[i] = the sum over rows, in their order, of weight * (rgb[i] - constant of its channel).
+void sum_rows(std::span<const WeightedRow> rows, long texels, const std::array<float, 3>& constant,
+              float* sums);
 
 /// Neighbouring columns that a column of a grid is the weighted sum of.
 struct ColumnSum {

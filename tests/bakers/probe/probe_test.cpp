@@ -67,7 +67,10 @@ TEST(ProbeBaker, ALevelHoldsTheRoughnessListedForIt) {
         params.perceptual_roughness = {};
         params.levels = 4;
         const Product even = bake_probe(params, equirect(32, axes_picture));
-        EXPECT_EQ(listed.images[0].levels[3].texels, even.images[0].levels[3].texels);
+        // What is analysed for the smoothest level may move the others by less than the error asked for.
+        const double allowed = integrator == Integrator::harmonic ? 1e-3 : 0;
+        for (std::size_t i = 0; i < even.images[0].levels[3].texels.size(); ++i)
+            EXPECT_NEAR(listed.images[0].levels[3].texels[i], even.images[0].levels[3].texels[i], allowed);
         params.perceptual_roughness = {0, 0.3, 0.3, 1};
         params.levels = 0;
     }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "pbr/ibl/ld.hpp"
@@ -40,6 +41,40 @@ TEST(BrightTexels, AddWhatTheExactSumAdds) {
     }
     expect_sums(PatchBlocks(EquirectView{picture.data(), 128, 64}, of_picture));
     expect_sums(PatchBlocks(CubeView{cube.data(), 32}, of_cube));
+}
+
+TEST(BrightTexels, NearAndFarPartsMakeTheWhole) {
+    const std::vector<float> picture = noise_picture(128, 64);
+    std::vector<CubeTexel> apart;
+    for (int i = 0; i < 64; ++i) apart.push_back({0, static_cast<int>(128 * random_unit(9, i)), i});
+    const PatchBlocks texels(EquirectView{picture.data(), 128, 64}, apart);
+    const std::vector<glm::dvec3> at = directions(texels);
+    const BrightTexels bright(texels);
+    for (const double alpha : {0.04, 0.16})
+        for (const double radius : {0.1, 0.4}) {
+            const SplitKernel split(GgxZonalKernel(alpha), radius);
+            std::vector<double> near(at.size() * 3), whole(at.size() * 3);
+            bright.integrate(alpha, at, whole);
+            bright.integrate(split, at, near);
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                glm::dvec3 far(0);  // by points that are close against the far part's width
+                for (int texel = 0; texel < texels.count(); ++texel) {
+                    PatchPoints points;
+                    texels.points(texel, 6, points);
+                    for (std::size_t k = 0; k < points.size(); ++k) {
+                        const glm::dvec3 apart_by = at[i] - glm::dvec3(points.x[k], points.y[k], points.z[k]);
+                        far += split.far(glm::dot(apart_by, apart_by) / 2) *
+                               static_cast<double>(points.weight[k]) *
+                               glm::dvec3(points.r[k], points.g[k], points.b[k]);
+                    }
+                }
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double expected = whole[i * 3 + c];
+                    ASSERT_NEAR(near[i * 3 + c] + far[static_cast<int>(c)], expected, 2e-5 * expected + 1e-8)
+                        << alpha << " " << radius << " " << i;
+                }
+            }
+        }
 }
 
 }  // namespace

@@ -60,6 +60,22 @@ TEST(SplitKernel, FarCoefficientsAreThoseOfADirectIntegral) {
     }
 }
 
+TEST(SplitKernel, FarTailIsWhatHigherDegreesHold) {
+    for (const double alpha : {0.01, 0.04, 0.3, 1.0})
+        for (const double radius : {0.1, 0.3}) {
+            const SplitKernel split(GgxZonalKernel(alpha), radius);
+            const std::vector<double> k = zonal_far(split, 2001);
+            for (const std::size_t bands : {40, 120}) {
+                double sum = 0;
+                for (std::size_t l = bands; l < k.size(); ++l)
+                    sum += (2 * static_cast<double>(l) + 1) * k[l] * k[l];
+                // Beyond 2000 degrees the kink at the horizon has .85 l^-3 and less.
+                EXPECT_NEAR(zonal_far_tail(split, std::span(k).first(bands)), sum, 1.2e-10 + 1e-9 * sum)
+                    << alpha << " " << radius << " " << bands;
+            }
+        }
+}
+
 /// Directions at random, and at poles, seams and corners.
 std::vector<glm::dvec3> directions() {
     std::vector<glm::dvec3> result{{0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {1e-3, 0, -1}, {1e-4, 1, 1e-4}};
@@ -92,7 +108,7 @@ TEST(NearField, WithTheFarPartIsTheWholeLobe) {
                 squared += std::pow(static_cast<double>(found[i]) - truth[i], 2);
                 mean += truth[i];
             }
-            EXPECT_LT(std::sqrt(squared * static_cast<double>(at.size())) / mean, 3e-4)
+            EXPECT_LT(std::sqrt(squared * static_cast<double>(at.size())) / mean, 1e-3)
                 << width << " " << alpha;
         }
     }

@@ -7,8 +7,11 @@
 #include <span>
 
 #include "pbr/ibl/patches.hpp"
+#include "pbr/ibl/split_kernel.hpp"
 
 namespace pbr {
+
+struct NearKernel;
 
 /// Single texels of a picture, with the few points that most directions need of each kept. The picture must
 /// outlive this.
@@ -23,10 +26,19 @@ class BrightTexels {
     std::uint64_t integrate(double alpha, std::span<const glm::dvec3> directions,
                             std::span<double> rgb_out) const;
 
+    /// The same of the near part of a split kernel. Time grows with the texels near the directions.
+    std::uint64_t integrate(const SplitKernel& split, std::span<const glm::dvec3> directions,
+                            std::span<double> rgb_out) const;
+
   private:
     static constexpr int kKept = 4;  ///< orders
 
+    class Sum;
+    std::uint64_t add_up(const NearKernel& kernel, double alpha, double radius,
+                         std::span<const glm::dvec3> directions, std::span<double> rgb_out) const;
+
     PatchBlocks texels_;
+    std::vector<int> by_height_;           ///< texels by the y of their axes
     std::array<PatchPoints, kKept> kept_;  ///< of all texels, one after the other
 };
 

@@ -4,14 +4,12 @@
 // A zonal kernel multiplies every harmonic of degree l by one number k_l, so that prefiltering at any alpha
 // is a transform, a product and a transform back (see ibl/zonal_kernel.hpp for why LD is such a filter):
 //
-//     HarmonicSpectrum spectrum(picture, 160, 1, each);              // E_lm
-//     HarmonicGrid level(spectrum, zonal_ggx(kernel, 112), each);  // the field of k_l E_lm on a grid
+//     HarmonicSpectrum spectrum(picture, {160, 1}, each);                      // E_lm
+//     HarmonicGrid level({{{&spectrum, zonal_ggx(kernel, 112)}}}, error, each);  // the field of k_l E_lm
 //     level.sample(direction, rgb);
-//
-// The one error is that degrees above the band limit are missing; truncation_error tells it from the
-// spectrum.
 
 #include <array>
+#include <complex>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -26,26 +24,51 @@ namespace pbr {
 class FluxGrid;
 class RingModes;
 
+/// How a picture is transformed.
+struct HarmonicRule {
+    int bands;         ///< highest degree, >= 0
+    int points_a_row;  ///< Gauss-Legendre points a row of texels, >= 1
+    /// Of the grid that finer pictures are spread over, even; cube maps need one, which has half as many rows
+    /// as columns.
+    int grid_rows = 1 << 30, grid_columns = 1 << 30;
+};
+
+/// The rule for pictures of `height` rows and kernels of width alpha in (0, 1]: the fewest points and the
+/// coarsest grid that move a filtered value by less than about max_error / 10 of the picture's contrast,
+/// each; by 5e-6 in azimuth, so that a turned picture has the same values, turned.
+HarmonicRule harmonic_rule(int height, int bands, double alpha, double max_error);
+
+/// Which texels are left out (face 0 of an equirect, rows ascending): they count as black. And what is
+/// taken from all texels before the transform and put back after it: of a picture of that value nothing is
+/// left to err; best is a mean.
+struct PicturePart {
+    std::span<const CubeTexel> without;
+    std::array<float, 3> constant{};
+};
+
 /// The coefficients E_lm of a picture's three channels for degrees 0 … bands and orders 0 … l, real and
 /// imaginary parts, to orthonormal harmonics without the Condon-Shortley phase in the picture's own (u, v):
 /// azimuth 2 pi u, colatitude pi v. Orders below 0 are their conjugates, the picture being real.
 class HarmonicSpectrum {
   public:
     /// Transforms a picture that is constant over each texel: exactly in azimuth, in colatitude by
-    /// `points_a_row` Gauss-Legendre points weighted by sine, which sum to the row's exact area. bands >= 0,
-    /// points_a_row >= 1 (see points_a_row()). Texels listed in `without` (face 0, rows ascending) count as
-    /// black. Relative error of a coefficient below 1e-12 apart from the points; but pictures of more than
-    /// about 3 rows a degree are spread over a coarser grid first, by the transpose of 6 x 6 interpolation,
-    /// in float: at degree l that moves coefficients by a share of (l / (2 bands))^6 at most, and by 3e-7 of
-    /// the largest.
-    HarmonicSpectrum(const EquirectView& source, int bands, int points_a_row, const ForEach& each,
-                     std::span<const CubeTexel> without = {});
+    /// Gauss-Legendre points weighted by sine, which sum to the row's exact area. Relative error of a
+    /// coefficient below 1e-12 apart from the points; but pictures of more rows than the rule's grid are
+    /// spread over that first, by the transpose of 6 x 6 interpolation, in float: at degree l that moves
+    /// coefficients by a share of .0024 (pi l / grid_rows)^6, and by 3e-7 of the largest.
+    HarmonicSpectrum(const EquirectView& source, const HarmonicRule& rule, const ForEach& each,
+                     const PicturePart& part = {});
 
-    /// Transforms a cube map: each texel as points_a_side^2 Gauss-Legendre points that sum to its exact solid
-    /// angle, spread over a finer grid by the transpose of 6 x 6 interpolation, whose error at degree l is
-    /// about (l / (2 bands))^6. The picture's frame is the cube's own, with u and v as of an equirect.
-    HarmonicSpectrum(const CubeView& source, int bands, int points_a_side, const ForEach& each,
-                     std::span<const CubeTexel> without = {});
+    /// Transforms a cube map: each texel as points_a_row^2 Gauss-Legendre points that sum to its exact solid
+    /// angle, spread over the rule's grid. The picture's frame is the cube's own, with u and v as of an
+    /// equirect.
+    HarmonicSpectrum(const CubeView& source, const HarmonicRule& rule, const ForEach& each,
+                     const PicturePart& part = {});
+
+    /// Transforms some texels of an equirect (face 0), all others being black; rows are never spread over a
+    /// grid. Time grows with their number and with that of the rows they lie in.
+    HarmonicSpectrum(const EquirectView& source, std::span<const CubeTexel> texels, const HarmonicRule& rule,
+                     const ForEach& each);
 
     /// The highest degree.
     int bands() const { return bands_; }
@@ -62,30 +85,42 @@ class HarmonicSpectrum {
     /// Takes world directions to the frame of the picture.
     const glm::dmat3& world_to_source() const { return world_to_source_; }
 
+    /// What was taken out and put back.
+    const std::array<float, 3>& constant() const { return constant_; }
+
   private:
-    HarmonicSpectrum(int bands, const glm::dmat3& world_to_source);
+    HarmonicSpectrum(int bands, const glm::dmat3& world_to_source, const std::array<float, 3>& constant);
     void integrate(RingModes& modes, const std::vector<double>& colatitudes_rad,
                    const std::vector<double>& weights, int points_a_ring, const ForEach& each);
-    void integrate_grid(const FluxGrid& grid, const std::vector<double>& factors, const ForEach& each);
-    void add_constant(const glm::dvec3& value);
+    void integrate_grid(const FluxGrid& grid, std::vector<std::complex<double>> factors, const ForEach& each);
+    void add_constant();
     std::size_t start(int order) const;
     int bands_;
+    std::array<float, 3> constant_;
     glm::dmat3 world_to_source_;
     std::vector<double> coefficients_;
 };
 
-/// Points a row of a picture of `height` rows needs for kernels of width alpha in (0, 1]: the fewest that
-/// keep the error of a filtered value below about max_error / 10 of the picture's contrast.
-int points_a_row(int height, double alpha, double max_error);
-
 /// A band-limited field on a grid of latitudes and longitudes.
 class HarmonicGrid {
   public:
-    /// The field with coefficients kernel[l] E_lm, l up to kernel.size() - 1 <= spectrum.bands().
-    HarmonicGrid(const HarmonicSpectrum& spectrum, std::span<const double> kernel, const ForEach& each);
+    /// A spectrum, and what each degree l of it is multiplied by; kernel.size() - 1 <= spectrum->bands().
+    struct Term {
+        const HarmonicSpectrum* spectrum;
+        std::span<const double> kernel;
+    };
+
+    /// Root mean square over the sphere of what interpolation between rows and columns may err by, > 0.
+    struct Error {
+        double of_rows, of_columns;
+    };
+
+    /// The sum of fields with coefficients kernel[l] E_lm, at least one, all in one frame, on the coarsest
+    /// grid that errs by no more than is allowed.
+    HarmonicGrid(std::span<const Term> terms, const Error& allowed, const ForEach& each);
 
     /// RGB in world directions (unit), interpolated from 6 x 6 grid points; `rgb_out` holds 3 floats each.
-    /// Relative error below 3e-5 for fields whose highest degrees hold little, as filtered ones do.
+    /// Rounding to float adds about 2e-7 of what the field varies by; a constant has no error but its own.
     void sample(std::span<const glm::dvec3> directions, std::span<float> rgb_out) const;
 
   private:
@@ -96,7 +131,8 @@ class HarmonicGrid {
     int rows_, columns_;
     long stride_;
     glm::dmat3 world_to_source_;
-    std::vector<float> texels_;  ///< RGBA with a border that wraps
+    std::array<float, 3> constant_;  ///< not on the grid
+    std::vector<float> texels_;      ///< RGBA with a border that wraps
 };
 
 }  // namespace pbr

@@ -10,6 +10,7 @@
 
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
+#include "pbr/ibl/equirect_rows.hpp"
 #include "pbr/ibl/split_kernel.hpp"
 
 namespace pbr {
@@ -20,9 +21,6 @@ class NearField {
     /// Texels in `without` (face 0, rows ascending) count as black.
     NearField(const EquirectView& source, const glm::dvec3& constant, std::span<const CubeTexel> without,
               const SplitKernel& split);
-    NearField(const NearField&) = delete;  // rows_ points into patched_
-    NearField(NearField&&) = default;
-
     /// The integral of near times (radiance - constant) over the picture, constant over its texels, added to
     /// rgb[0] ... rgb[2] for each of `directions` (unit vectors, world). By Gauss-Legendre points, about four
     /// for each width of a texel over its distance from the kernel's poles: the error, as a share of the
@@ -49,8 +47,7 @@ class NearField {
     std::array<float, 3> constant_;
     SplitKernel split_;
     double radius_, texel_angle_;
-    std::vector<float> patched_;  ///< rows that hold texels left out
-    std::vector<const float*> rows_;
+    EquirectRows rows_;
     std::vector<Points> rules_;
 };
 
