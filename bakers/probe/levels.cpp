@@ -21,16 +21,21 @@ constexpr double kLargestPyramid = 1024;  // 134 MB of RGBA floats; far finer th
 using Filter =
     std::function<std::uint64_t(int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb)>;
 
-/// A level in strips of 4 x 4 tiles: exact sums like texels that lie together.
-Level filled_by_strips(Context& context, int size, double work_of_texel, const Filter& filter) {
+/// A level in runs of 4 x 4 tiles, for exact sums like texels that lie together. A run is a strip of a face,
+/// or so much of it as keeps an interrupt waiting for some 1e-2 s.
+Level filled_by_tiles(Context& context, int size, double work_of_texel, const Filter& filter) {
+    constexpr double kMostWork = 3e4;
     Level level = empty_level(size);
     const int side = std::min(size, 4), strips = (size + side - 1) / side;
+    const double most = std::clamp(kMostWork / (work_of_texel * side * side), 1.0, 1.0 * strips);
+    const int width = static_cast<int>(most) * side, runs = (size + width - 1) / width;
     std::atomic<std::uint64_t> evaluations{0};
-    context.parallel_for(6 * strips, 1, [&](std::int64_t begin, std::int64_t end) {
+    context.parallel_for(6 * strips * runs, 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            const int face = static_cast<int>(i / strips), top = static_cast<int>(i % strips) * side;
+            const int strip = static_cast<int>(i / runs), first = static_cast<int>(i % runs) * width;
+            const int face = strip / strips, top = strip % strips * side;
             std::vector<pbr::CubeTexel> texels;
-            for (int left = 0; left < size; left += side)
+            for (int left = first; left < std::min(first + width, size); left += side)
                 for (int y = top; y < std::min(top + side, size); ++y)
                     for (int x = left; x < std::min(left + side, size); ++x) texels.push_back({face, x, y});
             std::vector<float> rgb(texels.size() * 3);
@@ -46,14 +51,14 @@ Level filled_by_strips(Context& context, int size, double work_of_texel, const F
     return level;
 }
 
-/// Fills all levels by strips; `filter_of(level, alpha)` makes each level's filter.
+/// Fills all levels by tiles; `filter_of(level, alpha)` makes each level's filter.
 template <class FilterOf>
 void fill_levels(const ProbeParams& params, double work_of_texel, Context& context, Image& image,
                  const FilterOf& filter_of) {
     for (int l = 1; l < level_count(params); ++l)
         context.expect(6 * work_of_texel * size_of_level(params, l) * size_of_level(params, l));
     for (int l = 1; l < level_count(params); ++l)
-        image.levels[static_cast<std::size_t>(l)] = filled_by_strips(
+        image.levels[static_cast<std::size_t>(l)] = filled_by_tiles(
             context, size_of_level(params, l), work_of_texel, filter_of(l, alpha_of_level(params, l)));
 }
 

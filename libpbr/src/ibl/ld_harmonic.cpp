@@ -24,8 +24,10 @@ constexpr std::size_t kManyBright = 24;
 constexpr double kTurnError = 5e-6;
 
 /// Shares of the error asked for, root mean square: of degrees that are known and left out, of those beyond
-/// what is analysed, of interpolation. The rules of analysis take a tenth each.
-constexpr double kTruncationShare = 0.35, kBeyondShare = 0.25, kInterpolationShare = 0.15;
+/// what is analysed, of interpolation, of each bright texel that a horizon cuts. The rules of analysis take a
+/// tenth each.
+constexpr double kTruncationShare = 0.35, kBeyondShare = 0.25, kInterpolationShare = 0.15,
+                 kHorizonShare = 0.1;
 
 /// The sum of (2l + 1) k_l^2 beyond a degree: by Parseval's theorem what leaving these out moves a level by,
 /// over its mean and squared, where all light is one point; of uncorrelated points, times the sum of their
@@ -175,9 +177,13 @@ HarmonicRule LdHarmonic::prepare(const View& source, int height, double smallest
         rows[static_cast<std::size_t>(row)] = light_of_row(source, row, row_of(source, row));
     });
     bright_ = find_bright_texels(source, rows);
-    if (!bright_.empty()) bright_texels_.emplace(PatchBlocks(source, bright_));
-    leave_out(source, bright_, rows);
-    const std::array<double, 3> flux = flux_of(rows);
+    std::array<double, 3> flux = flux_of(rows);
+    if (!bright_.empty()) {
+        const double mean = (flux[0] + flux[1] + flux[2]) / (12 * std::numbers::pi);
+        bright_texels_.emplace(PatchBlocks(source, bright_), kHorizonShare * max_error_ * mean);
+        leave_out(source, bright_, rows);
+        flux = flux_of(rows);
+    }
     PicturePart rest{bright_, {}};
     for (std::size_t c = 0; c < 3; ++c)
         rest.constant[c] = static_cast<float>(flux[c] / (4 * std::numbers::pi));

@@ -128,6 +128,11 @@ struct Bundle {
         return glm::dot(axis, cone.axis) < -(kArc * reach + cone.half_angle);
     }
 
+    /// True if the horizon of some direction may cut a cone.
+    bool is_cut(const Cone& cone) const {
+        return std::abs(glm::dot(axis, cone.axis)) <= kArc * reach + cone.half_angle;
+    }
+
     static constexpr double kArc = 1.5707963267948966;  ///< angle over chord, at most
     glm::dvec3 axis;
     double reach;
@@ -146,7 +151,8 @@ BrightGroup group_of(std::span<const glm::dvec3> directions) {
 
 }  // namespace
 
-BrightTexels::BrightTexels(PatchBlocks texels) : texels_(std::move(texels)) {
+BrightTexels::BrightTexels(PatchBlocks texels, double horizon_error)
+    : texels_(std::move(texels)), horizon_error_(horizon_error) {
     PatchPoints points;
     for (std::size_t order = 0; order < kKept; ++order)
         for (int texel = 0; texel < texels_.count(); ++texel) {
@@ -174,6 +180,8 @@ class BrightTexels::Sum {
     Sum(const BrightTexels& of, const NearKernel& kernel, double alpha,
         std::span<const glm::dvec3> directions)
         : of_(of), kernel_(kernel), alpha_(alpha), together_(directions) {
+        const double f = (1 + alpha * alpha) / 2;  // at the horizon
+        rise_ = GgxZonalKernel(alpha).normalisation() / (f * f);
         for (std::size_t i = 0; i < directions.size(); i += BrightGroup::kSize) {
             const std::span<const glm::dvec3> own =
                 directions.subspan(i, std::min(BrightGroup::kSize, directions.size() - i));
@@ -194,7 +202,7 @@ class BrightTexels::Sum {
         for (int texel = 0; texel < count; ++texel) {
             const Cone& cone = of_.texels_.cone(texel);
             const bool unseen = together_.is_above(cone);
-            if (!unseen && order_index(together_.nearest(cone)) == 0) {
+            if (!unseen && order_index(texel, together_) == 0) {
                 ++run;
                 continue;
             }
@@ -222,15 +230,33 @@ class BrightTexels::Sum {
     std::uint64_t evaluations() const { return evaluations_; }
 
   private:
-    int order_index(double nearest) const {
-        return ld_order_index(of_.texels_.texel_angle(), alpha_, nearest);
+    /// The order of points of a texel for some directions.
+    int order_index(int texel, const Bundle& bundle) const {
+        const Cone& cone = of_.texels_.cone(texel);
+        const int order = ld_order_index(of_.texels_.texel_angle(), alpha_, bundle.nearest(cone));
+        return bundle.is_cut(cone) ? std::max(order, order_at_horizon(texel)) : order;
+    }
+
+    /// Where the kernel rises from 0 with the sine over the horizon, n x n points of a texel of angle h err
+    /// by h / (8 n^2) of the rise times its light, in a band h wide.
+    int order_at_horizon(int texel) const {
+        const PatchPoints& middles = of_.kept_[0];
+        const auto i = static_cast<std::size_t>(texel);
+        const double light = static_cast<double>(middles.weight[i]) *
+                             static_cast<double>(std::max({middles.r[i], middles.g[i], middles.b[i]}));
+        const double h = of_.texels_.texel_angle();
+        const double error = h / 8 * rise_ * light * std::sqrt(h / 2);
+        int index = 0;
+        while (PatchBlocks::kOrders[index] < kMostAtHorizon &&
+               error > PatchBlocks::kOrders[index] * PatchBlocks::kOrders[index] * of_.horizon_error_)
+            ++index;
+        return index;
     }
 
     void add_texel(int texel, double radius) {
         for (std::size_t g = 0; g < groups_.size(); ++g) {
-            const double nearest = bundles_[g].nearest(of_.texels_.cone(texel));
-            if (nearest > radius) continue;
-            const int index = order_index(nearest);
+            if (bundles_[g].nearest(of_.texels_.cone(texel)) > radius) continue;
+            const int index = order_index(texel, bundles_[g]);
             if (index < kKept) {
                 const auto count = static_cast<std::size_t>(PatchBlocks::kOrders[index]) *
                                    static_cast<std::size_t>(PatchBlocks::kOrders[index]);
@@ -248,9 +274,12 @@ class BrightTexels::Sum {
         evaluations_ += (last - first) * BrightGroup::kSize;
     }
 
+    static constexpr int kMostAtHorizon = 32;  // points a side
+
     const BrightTexels& of_;
     const NearKernel& kernel_;
     double alpha_;
+    double rise_;  ///< of the kernel above the horizon
     Bundle together_;
     std::vector<BrightGroup> groups_;
     std::vector<Bundle> bundles_;

@@ -228,7 +228,8 @@ std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, bool is_pa
     };
     for (std::size_t g = 0; g < group_count; ++g) cones[g] = ld_fill_group(of_group(g), groups[g]);
 
-    constexpr int kLast = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
+    constexpr int kLast = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1, kAtHorizon = 9;
+    static_assert(PatchBlocks::kOrders[kAtHorizon] == 32);
     std::vector<PatchPoints> by_order(std::size(PatchBlocks::kOrders));
     for (int block = 0; block < source.count(); ++block) {
         const Cone& cone = source.cone(block);
@@ -238,10 +239,10 @@ std::vector<LdGroup> sums_of(const PatchBlocks& source, double alpha, bool is_pa
             const double nearest = std::max(0.0, apart - cones[g].half_angle - cone.half_angle);
             if (nearest > std::numbers::pi / 2) continue;  // wholly below the horizon
             // The errors of a whole picture's texels cancel; those of a few bright ones don't, and get a step
-            // more.
+            // more, or as many points as show where a horizon cuts them.
             const bool above = apart + cones[g].half_angle + cone.half_angle < std::numbers::pi / 2;
-            const int index =
-                std::min(kLast, ld_order_index(source.texel_angle(), alpha, nearest) + (is_part && above));
+            int index = ld_order_index(source.texel_angle(), alpha, nearest);
+            if (is_part) index = above ? std::min(kLast, index + 1) : std::max(index, kAtHorizon);
             PatchPoints& points = by_order[static_cast<std::size_t>(index)];
             if (points.size() == 0) source.points(block, index, points);
             ld_add_points(points, alpha, kernel.normalisation(), groups[g]);
