@@ -88,7 +88,7 @@ Results run_kernels() {
     results.bright.resize(150);
     NearField(equirect, glm::dvec3(0.1), apart, SplitKernel(GgxZonalKernel(0.02), 0.2))
         .add(directions, results.near);
-    BrightTexels(PatchBlocks(equirect, apart), 1e-3).integrate(0.1, directions, results.bright);
+    BrightTexels(PatchBlocks(equirect, apart), 1e-3, false).integrate(0.1, directions, results.bright);
     const HarmonicSpectrum spectrum(equirect, {6, 1}, for_each_in_turn, {apart});
     for (int m = 0; m <= 6; ++m)
         results.spectrum.insert(results.spectrum.end(), spectrum.of_order(m).begin(),

@@ -19,6 +19,10 @@ constexpr double kBrightShare = 1e-3, kBrightOverMean = 20;
 /// From how many bright texels on it pays to have what is far of them by harmonics.
 constexpr std::size_t kManyBright = 24;
 
+/// Errors below this want bright texels by finer points: a sun's 3e-5 of its values are a few times as much
+/// over the mean.
+constexpr double kFineError = 3e-4;
+
 /// What interpolation may err by, over the mean, where a picture that is turned - an equirect about its axis,
 /// a cube map about any - should give the same values, turned.
 constexpr double kTurnError = 5e-6;
@@ -180,7 +184,8 @@ HarmonicRule LdHarmonic::prepare(const View& source, int height, double smallest
     std::array<double, 3> flux = flux_of(rows);
     if (!bright_.empty()) {
         const double mean = (flux[0] + flux[1] + flux[2]) / (12 * std::numbers::pi);
-        bright_texels_.emplace(PatchBlocks(source, bright_), kHorizonShare * max_error_ * mean);
+        bright_texels_.emplace(PatchBlocks(source, bright_), kHorizonShare * max_error_ * mean,
+                               max_error_ < kFineError);
         leave_out(source, bright_, rows);
         flux = flux_of(rows);
     }

@@ -151,8 +151,8 @@ BrightGroup group_of(std::span<const glm::dvec3> directions) {
 
 }  // namespace
 
-BrightTexels::BrightTexels(PatchBlocks texels, double horizon_error)
-    : texels_(std::move(texels)), horizon_error_(horizon_error) {
+BrightTexels::BrightTexels(PatchBlocks texels, double horizon_error, bool is_fine)
+    : texels_(std::move(texels)), horizon_error_(horizon_error), finer_(is_fine) {
     PatchPoints points;
     for (std::size_t order = 0; order < kKept; ++order)
         for (int texel = 0; texel < texels_.count(); ++texel) {
@@ -233,7 +233,9 @@ class BrightTexels::Sum {
     /// The order of points of a texel for some directions.
     int order_index(int texel, const Bundle& bundle) const {
         const Cone& cone = of_.texels_.cone(texel);
-        const int order = ld_order_index(of_.texels_.texel_angle(), alpha_, bundle.nearest(cone));
+        constexpr int kLast = static_cast<int>(std::size(PatchBlocks::kOrders)) - 1;
+        const int order = std::min(
+            kLast, ld_order_index(of_.texels_.texel_angle(), alpha_, bundle.nearest(cone)) + of_.finer_);
         return bundle.is_cut(cone) ? std::max(order, order_at_horizon(texel)) : order;
     }
 

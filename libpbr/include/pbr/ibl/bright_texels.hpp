@@ -19,12 +19,13 @@ class BrightTexels {
   public:
     /// `texels` are blocks of one texel each. The horizon of a direction may cut one, where the kernel has a
     /// kink: this may err by `horizon_error` >= 0, root mean square over the sphere, in the unit of radiance.
-    /// Of less than 32 x 32 points leave no more is asked.
-    BrightTexels(PatchBlocks texels, double horizon_error);
+    /// By 32 x 32 points at most. `is_fine` takes more points everywhere.
+    BrightTexels(PatchBlocks texels, double horizon_error, bool is_fine);
 
     /// The integral of the kernel times radiance over the texels, in `directions` (unit vectors, world), for
-    /// alpha in (0, 1]; `rgb_out` holds 3 doubles each. As ld_partial: relative error below 1e-5 but for what
-    /// a horizon cuts. Directions that lie together cost least. Returns its kernel evaluations. Thread-safe.
+    /// alpha in (0, 1]; `rgb_out` holds 3 doubles each. As ld_partial: relative error below 3e-5, 1e-5 if
+    /// fine, but for what a horizon cuts. Directions that lie together cost least. Returns its kernel
+    /// evaluations. Thread-safe.
     std::uint64_t integrate(double alpha, std::span<const glm::dvec3> directions,
                             std::span<double> rgb_out) const;
 
@@ -41,6 +42,7 @@ class BrightTexels {
 
     PatchBlocks texels_;
     double horizon_error_;
+    int finer_;                            ///< orders
     std::vector<int> by_height_;           ///< texels by the y of their axes
     std::array<PatchPoints, kKept> kept_;  ///< of all texels, one after the other
 };
