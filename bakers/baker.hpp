@@ -39,6 +39,7 @@ struct Read {
     std::string colour_space = "auto";  ///< of a picture
     As as = As::picture;
     bool with_alpha = false;  ///< of a picture: keeps a fourth (or of grey, second) channel as A, as stored
+    bool as_codes = false;    ///< of a picture: 8-bit files stay codes (SourceImage::codes)
 };
 
 /// Decoded and colour-managed sources, by Params field.

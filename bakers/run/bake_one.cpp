@@ -148,7 +148,8 @@ class BakeRun {
                                 source.read.colour_space,
                                 job_.working_space,
                                 source.read.with_alpha,
-                                {job_.max_side, job_.max_decoded_bytes}});
+                                {job_.max_side, job_.max_decoded_bytes},
+                                source.read.as_codes});
     }
 
     void warn_of(const job::Source& source, const SourceImage& image) {
@@ -162,7 +163,9 @@ class BakeRun {
             report_.warnings.push_back(path + ": " + std::to_string(repairs.negative) +
                                        " texels were negative (lowest " + number_text(repairs.lowest) +
                                        "); they became 0");
-        if (image.colour_space_assumed)
+        if (!image.colour_doubt.empty())
+            report_.warnings.push_back(path + ": " + image.colour_doubt);
+        else if (image.colour_space_assumed)
             report_.warnings.push_back(path + ": does not tell its colour space; taken as " +
                                        image.colour_space + " (state it with colour_space)");
     }
@@ -188,7 +191,10 @@ class BakeRun {
 
     /// Nobody looks at sources' texels any more; the record still wants the rest.
     void release_sources() {
-        for (auto& [field, source] : inputs_) source.image.levels.clear();
+        for (auto& [field, source] : inputs_) {
+            source.image.levels.clear();
+            source.codes = {};
+        }
     }
 
     void encode() {
