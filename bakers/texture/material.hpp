@@ -10,8 +10,8 @@ namespace pbrbake::texture {
 Json properties_json(const TextureParams& params, const Layout& layout, const Survey& survey,
                      const Findings& findings, const Sources& sources, float specular_unit);
 
-/// NAME.material.json: a glTF material for packing gltf (its texture indices are those of "images"), else a
-/// list of what each channel holds.
+/// NAME.material.json: a glTF material for packing gltf and specular_gloss (its texture indices are those of
+/// "images"), else a list of what each channel holds.
 Json material_json(const TextureParams& params, const Layout& layout, float specular_unit);
 
 }  // namespace pbrbake::texture
