@@ -453,7 +453,7 @@ TEST(TextureRealFiles, BoomBoxReturnsThroughSpecularGlossInFloat) {
     RecordProperty("told_share", std::to_string(told / width / height));
     RecordProperty("told_error", std::to_string(told_error / told));
     EXPECT_LT(told_error / told, 1e-3);
-    EXPECT_LT(error / width / height, .01);
+    EXPECT_LT(error / width / height, 1e-3);
 }
 
 }  // namespace
