@@ -1,6 +1,7 @@
 #pragma once
 // Images in memory: what io decodes, bakers make, and io encodes.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -69,6 +70,11 @@ struct SourceImage {
     bool colour_space_assumed = false;
     std::string units = "relative";  ///< "cd/m^2" only where the source says so
     int bits = 0;                    ///< of an integer channel in the file; 0: float
+    /// A picture of 8-bit codes as the file has them, a quarter of its floats, where a reader asked for them:
+    /// laid out as the texels of image's one level, which then is empty but for its size.
+    std::vector<std::uint8_t> codes;
+    std::array<float, 256> linear{};  ///< what codes of R G B stand for; one of A is code / 255
+    std::string colour_doubt;  ///< what the file says of its colours that wasn't followed, for a warning
     Repairs repairs;
     std::vector<std::byte> bytes;  ///< the whole file, where it was read as a text; then there is no image
     std::string name;              ///< of such a file, for messages

@@ -33,12 +33,12 @@ void print_levels(const verify::Inspection& inspection) {
     }
 }
 
-/// Shares of all texels, in percent.
+/// Shares of all texels, in percent; 80 columns at most.
 void print_ranges(const std::vector<verify::RangeCheck>& ranges) {
     if (ranges.empty()) return;
-    std::printf("\n%-40s %-12s %8s %8s %8s\n", "physical range", "", "texels", "below", "above");
+    std::printf("\n%-30s %-12s %8s %8s %8s\n", "physical range", "", "texels", "below", "above");
     for (const verify::RangeCheck& check : ranges) {
-        std::printf("%-40s %4g to %-4g %7.2f%% %7.2f%% %7.2f%%%s\n", check.what.c_str(), check.lowest,
+        std::printf("%-30s %4g to %-4g %7.2f%% %7.2f%% %7.2f%%%s\n", check.what.c_str(), check.lowest,
                     check.highest, 100 * check.texels, 100 * check.below, 100 * check.above,
                     check.below + check.above > .01 ? "  outside" : "");
     }

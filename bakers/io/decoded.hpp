@@ -17,11 +17,15 @@ struct Decoded {
     int faces = 1;
     std::vector<float> rgb;    ///< faces, rows, texels, R G B
     std::vector<float> alpha;  ///< of each texel, or empty
-    int bits = 0;              ///< of an integer channel, 0 of a float
+    /// In place of both, where codes were asked for and the file has 8 bits: R G B, or R G B A.
+    std::vector<std::uint8_t> codes;
+    int code_channels = 3;
+    int bits = 0;  ///< of an integer channel, 0 of a float
     Encoding encoding;
     bool encoding_assumed = true;
     double to_units = 1;  ///< multiplies linear values
     std::string units = "relative";
+    std::string icc_profile;  ///< what an embedded one calls itself; "": there is none
 };
 
 /// An OpenEXR file, read as it is decoded.
@@ -30,7 +34,7 @@ Decoded decode_exr(const File& file, const ReadLimits& limits);
 /// A file in a format that OpenImageIO reads for us.
 enum class ForeignFormat { hdr, png, tiff, targa, jpeg };
 Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& where, const ReadLimits& limits,
-                       bool with_alpha = false);
+                       bool with_alpha = false, bool as_codes = false);
 
 /// Throws Error(unreadable_input) unless width x height texels of `bytes_per_texel` in memory are within the
 /// limits.

@@ -26,6 +26,7 @@ struct ReadRequest {
     std::string working_space = "lin_rec709";  ///< of the result: lin_rec709 | acescg
     bool with_alpha = false;                   ///< keeps alpha, where a PNG, TIFF, TGA or JPEG has it
     ReadLimits limits = {};
+    bool as_codes = false;  ///< keeps the codes of 8-bit files whose gamut is the working space's
 };
 
 /// Reads an equirect (HDR, EXR, PNG, TIFF, TGA, JPEG) or a cube map (EXR with an envmap attribute), linear,

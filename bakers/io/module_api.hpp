@@ -26,6 +26,7 @@ struct PictureSpec {
     int orientation = 1;  ///< as Exif counts: 1 upright, 2 mirrored, 3 turned by 180°, …
     double gamma = 0;     ///< of a power curve the file states, 0 when none
     bool exif_srgb = false;
+    std::string icc_profile;  ///< what an embedded one calls itself, "unnamed"; "": there is none
     std::string compression;
 };
 

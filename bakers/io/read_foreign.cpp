@@ -28,8 +28,8 @@ const char* oiio_name(ForeignFormat format) {
     return "";
 }
 
-/// What the file says of its encoding: a PNG's chunks, Exif's ColorSpace, a TGA's gamma. ICC profiles are not
-/// read.
+/// What the file says of its encoding: a PNG's chunks, Exif's ColorSpace, a TGA's gamma. An ICC profile isn't
+/// followed.
 std::optional<Encoding> stated_encoding(ForeignFormat format, Bytes file, const std::string& where,
                                         const PictureSpec& spec) {
     if (format == ForeignFormat::png) return png_encoding(file, where);
@@ -63,6 +63,15 @@ void check_claims(ForeignFormat format, Bytes file, const std::string& where, co
 }
 
 /// Appends one decoded strip: grey is spread to RGB, alpha goes apart.
+void append_codes(const std::vector<float>& strip, std::size_t count, int channels, Decoded& decoded) {
+    const auto step = static_cast<std::size_t>(channels);
+    const auto code = [](float value) { return static_cast<std::uint8_t>(value * 255 + .5f); };
+    for (std::size_t i = 0; i < count; i += step) {
+        for (std::size_t c = 0; c < 3; ++c) decoded.codes.push_back(code(strip[i + (step >= 3 ? c : 0)]));
+        if (decoded.code_channels == 4) decoded.codes.push_back(code(strip[i + step - 1]));
+    }
+}
+
 void append_strip(const std::vector<float>& strip, std::size_t count, int channels, Decoded& decoded) {
     std::vector<float>& rgb = decoded.rgb;
     if (channels == 3) {
@@ -80,31 +89,38 @@ void append_strip(const std::vector<float>& strip, std::size_t count, int channe
 }
 
 /// Row by row, so that memory is taken only as far as the file's bytes last.
-void read_texels(PictureReader& reader, const std::string& where, Decoded& decoded) {
+void read_texels(PictureReader& reader, const std::string& where, bool as_codes, Decoded& decoded) {
     const PictureSpec& spec = reader.spec();
     const int channels = reader.decoded_channels();
+    const std::size_t texels = static_cast<std::size_t>(spec.width) * spec.height;
+    decoded.code_channels = channels % 2 == 0 ? 4 : 3;
     constexpr int kRows = 64;
     const int step = (kRows + reader.row_quantum() - 1) / reader.row_quantum() * reader.row_quantum();
     const std::size_t row = static_cast<std::size_t>(spec.width) * channels;
     std::vector<float> strip(row * static_cast<std::size_t>(std::min(step, spec.height)));
-    decoded.rgb.reserve(static_cast<std::size_t>(spec.width) * spec.height * 3);
+    if (as_codes)
+        decoded.codes.reserve(texels * static_cast<std::size_t>(decoded.code_channels));
+    else
+        decoded.rgb.reserve(texels * 3);
     for (int begin = 0; begin < spec.height; begin += step) {
         const int end = std::min(begin + step, spec.height);
         std::string error;
         if (!reader.read_rows(begin, end, strip.data(), error))
             throw unreadable(where, "is truncated or malformed: " + error);
-        append_strip(strip, row * static_cast<std::size_t>(end - begin), channels, decoded);
+        const std::size_t count = row * static_cast<std::size_t>(end - begin);
+        as_codes ? append_codes(strip, count, channels, decoded)
+                 : append_strip(strip, count, channels, decoded);
     }
 }
 
-/// Applies an Exif orientation (2-8), so that row 0 is the top of the picture.
-void turn_upright(int orientation, Decoded& decoded) {
-    if (orientation <= 1 || orientation > 8) return;
-    const int w = decoded.width, h = decoded.height;
+/// Texels of `channels` numbers in the order of an upright picture, for an Exif orientation of 2 to 8.
+template <class T>
+std::vector<T> upright(int orientation, int w, int h, std::size_t channels, const std::vector<T>& stored) {
     const bool transposed = orientation >= 5;
     const bool flip_x = orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
     const bool flip_y = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
-    std::vector<float> upright(decoded.rgb.size()), upright_alpha(decoded.alpha.size());
+    std::vector<T> result(stored.size());
+    if (stored.empty()) return result;
     const int out_w = transposed ? h : w, out_h = transposed ? w : h;
     for (int y = 0; y < out_h; ++y)
         for (int x = 0; x < out_w; ++x) {
@@ -112,16 +128,21 @@ void turn_upright(int orientation, Decoded& decoded) {
             int sx = transposed ? y : x, sy = transposed ? x : y;
             if (flip_x) sx = w - 1 - sx;
             if (flip_y) sy = h - 1 - sy;
-            const float* from = decoded.rgb.data() + (static_cast<std::size_t>(sy) * w + sx) * 3;
-            const std::size_t to = static_cast<std::size_t>(y) * out_w + x;
-            std::copy(from, from + 3, upright.data() + to * 3);
-            if (!decoded.alpha.empty())
-                upright_alpha[to] = decoded.alpha[static_cast<std::size_t>(sy) * w + sx];
+            const T* from = stored.data() + (static_cast<std::size_t>(sy) * w + sx) * channels;
+            std::copy_n(from, channels, result.data() + (static_cast<std::size_t>(y) * out_w + x) * channels);
         }
-    decoded.rgb = std::move(upright);
-    decoded.alpha = std::move(upright_alpha);
-    decoded.width = out_w;
-    decoded.height = out_h;
+    return result;
+}
+
+/// Applies an Exif orientation (2-8), so that row 0 is the top of the picture.
+void turn_upright(int orientation, Decoded& decoded) {
+    if (orientation <= 1 || orientation > 8) return;
+    const int w = decoded.width, h = decoded.height;
+    decoded.rgb = upright(orientation, w, h, 3, decoded.rgb);
+    decoded.alpha = upright(orientation, w, h, 1, decoded.alpha);
+    decoded.codes =
+        upright(orientation, w, h, static_cast<std::size_t>(decoded.code_channels), decoded.codes);
+    if (orientation >= 5) std::swap(decoded.width, decoded.height);
 }
 
 }  // namespace
@@ -141,7 +162,7 @@ void check_limits(std::int64_t width, std::int64_t height, double bytes_per_texe
 }
 
 Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& where, const ReadLimits& limits,
-                       bool with_alpha) {
+                       bool with_alpha, bool as_codes) {
     if (format == ForeignFormat::png && !png_is_complete(file))
         throw unreadable(where, "is truncated: its chunks don't run to IEND");
     if (format == ForeignFormat::jpeg && !jpeg_is_complete(file))
@@ -157,7 +178,8 @@ Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& wher
     decoded.height = spec.height;
     find_encoding(format, file, where, spec, decoded);
     decoded.bits = spec.is_float ? 0 : 8 * spec.bytes_per_channel;
-    read_texels(*reader, where, decoded);
+    decoded.icc_profile = spec.icc_profile;
+    read_texels(*reader, where, as_codes && decoded.bits == 8, decoded);
     turn_upright(spec.orientation, decoded);
     return decoded;
 }

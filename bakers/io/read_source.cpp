@@ -9,6 +9,7 @@
 #include "bakers/io/foreign_claims.hpp"
 #include "bakers/io/io.hpp"
 #include "bakers/io/repair.hpp"
+#include "bakers/io/unorm8.hpp"
 
 namespace pbrbake::io {
 namespace {
@@ -39,7 +40,7 @@ Decoded decode(const File& file, const ReadRequest& request, SourceImage& source
     const std::vector<std::byte> bytes = file.head(file.size());
     source.hash = hash_bytes(bytes.data(), bytes.size());
     if (const auto format = foreign_format(bytes, lower_extension(request.path)))
-        return decode_foreign(*format, bytes, where, request.limits, request.with_alpha);
+        return decode_foreign(*format, bytes, where, request.limits, request.with_alpha, request.as_codes);
     throw unreadable(where,
                      "is none of the formats that are read: EXR, HDR (RGBE), PNG, TIFF, TGA (.tga), JPEG");
 }
@@ -58,6 +59,45 @@ std::optional<Encoding> resolve_encoding(const ReadRequest& request, const Decod
     if (auto named = encoding_named(request.colour_space)) return named;
     throw Error(ExitCode::invalid_job, request.path.string(),
                 "unknown colour space '" + request.colour_space + "'; allowed: " + listed(colour_spaces()));
+}
+
+/// An embedded profile that says more than the encoding that is used; a profile of sRGB says the same.
+std::string colour_doubt(const ReadRequest& request, const Decoded& decoded) {
+    const bool is_srgb = decoded.encoding.curve == Curve::srgb && decoded.encoding.gamut == Gamut::rec709 &&
+                         decoded.icc_profile.find("sRGB") != std::string::npos;
+    if (decoded.icc_profile.empty() || is_srgb || request.colour_space != "auto") return "";
+    return "embeds the ICC profile \"" + decoded.icc_profile + "\", which isn't followed; taken as " +
+           name_of(decoded.encoding) + " (state it with colour_space)";
+}
+
+/// What the 256 codes stand for, unless channels mix.
+std::optional<std::array<float, 256>> linear_of_codes(const std::optional<Encoding>& encoding, Gamut working,
+                                                      const std::string& where) {
+    if (encoding && encoding->gamut != working) return {};
+    std::array<float, 256> linear{};
+    for (std::size_t code = 0; code < 256; ++code)
+        linear[code] = kUnorm8.linear(static_cast<std::uint8_t>(code));
+    if (!encoding || encoding->curve == Curve::linear) return linear;
+    if (encoding->curve == Curve::srgb) {
+        for (std::size_t code = 0; code < 256; ++code)
+            linear[code] = kUnorm8.srgb(static_cast<std::uint8_t>(code));
+        return linear;
+    }
+    std::vector<float> rgb;
+    for (const float value : linear) rgb.insert(rgb.end(), 3, value);
+    convert(*encoding, working, rgb, where);
+    for (std::size_t code = 0; code < 256; ++code) linear[code] = rgb[3 * code];
+    return linear;
+}
+
+/// Codes to the floats that they would have been read as.
+void expand_codes(Decoded& decoded) {
+    const auto channels = static_cast<std::size_t>(decoded.code_channels);
+    for (std::size_t i = 0; i < decoded.codes.size(); i += channels) {
+        for (std::size_t c = 0; c < 3; ++c) decoded.rgb.push_back(kUnorm8.linear(decoded.codes[i + c]));
+        if (channels == 4) decoded.alpha.push_back(kUnorm8.linear(decoded.codes[i + 3]));
+    }
+    decoded.codes = {};
 }
 
 /// R G B A of both. Alpha is a number of [0, 1] as stored; NaN is 1.
@@ -93,17 +133,28 @@ SourceImage read_source(const ReadRequest& request) {
         Decoded decoded = decode(File(request.path, request.limits.max_decoded_bytes * 2), request, source);
         source.units = decoded.units;
 
+        const std::optional<Encoding> encoding = resolve_encoding(request, decoded, source);
+        source.colour_doubt = colour_doubt(request, decoded);
+        source.bits = decoded.bits;
+        source.image.channels = {"R", "G", "B"};
+        source.image.faces = decoded.faces;
+        if (!decoded.codes.empty()) {
+            if (const auto linear = linear_of_codes(encoding, *working, where)) {
+                source.linear = *linear;
+                source.codes = std::move(decoded.codes);
+                if (decoded.code_channels == 4) source.image.channels.emplace_back("A");
+                source.image.levels.push_back({decoded.width, decoded.height, {}});
+                return source;
+            }
+            expand_codes(decoded);
+        }
         repair_non_finite(decoded.rgb, source.repairs);
-        if (const auto encoding = resolve_encoding(request, decoded, source))
-            convert(*encoding, *working, decoded.rgb, where);
+        if (encoding) convert(*encoding, *working, decoded.rgb, where);
         if (decoded.to_units != 1)
             for (float& value : decoded.rgb) value = static_cast<float>(value * decoded.to_units);
         repair_non_finite(decoded.rgb, source.repairs);  // a conversion can overflow
         repair_negative(decoded.rgb, source.repairs);
 
-        source.bits = decoded.bits;
-        source.image.channels = {"R", "G", "B"};
-        source.image.faces = decoded.faces;
         if (!decoded.alpha.empty()) {
             source.image.channels.emplace_back("A");
             decoded.rgb = interleaved(decoded.rgb, decoded.alpha);

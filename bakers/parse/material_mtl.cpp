@@ -186,21 +186,20 @@ class Mtl {
     }
 
     bool read_map(const std::string& key, std::string_view line) {
-        static const std::array<std::pair<std::string_view, MaterialMap LegacyMaterial::*>, 8> kMaps{
+        static const std::array<std::pair<std::string_view, MaterialMap LegacyMaterial::*>, 10> kMaps{
             {{"map_kd", &LegacyMaterial::diffuse},
              {"map_ks", &LegacyMaterial::specular},
              {"map_ns", &LegacyMaterial::gloss},
              {"map_ke", &LegacyMaterial::emissive},
              {"map_d", &LegacyMaterial::opacity},
+             {"map_pm", &LegacyMaterial::metallic_map},
+             {"map_pr", &LegacyMaterial::roughness_map},
              {"map_bump", &LegacyMaterial::normal},
              {"bump", &LegacyMaterial::normal},
              {"norm", &LegacyMaterial::normal}}};
         const auto found = std::ranges::find(kMaps, key, [](const auto& entry) { return entry.first; });
-        if (found == kMaps.end()) {
-            if (key == "map_pr" || key == "map_pm")
-                warn("pbr_map", key + " isn't read: metallic and roughness are factors here; left out");
+        if (found == kMaps.end())
             return key.starts_with("map_") || key == "disp" || key == "decal" || key == "refl";
-        }
         MaterialMap& map = material().*found->second;
         // norm says that it holds normals, which map_bump may or may not.
         if (key != "norm" && lower(map.said) == "norm") return true;
@@ -210,6 +209,7 @@ class Mtl {
         if (map.path.empty())
             throw malformed(file_, line_, "found " + parse::quoted(key) + " without a file");
         if (key == "map_d") material().alpha = AlphaMode::blend;
+        if (key == "map_pr" || key == "map_pm") material().lobe = MaterialLobe::metallic;
         return true;
     }
 

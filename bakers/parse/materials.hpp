@@ -48,6 +48,7 @@ struct LegacyMaterial {
     int line = 0;
     MaterialLobe lobe = MaterialLobe::none;
     MaterialMap diffuse, specular, gloss, normal, occlusion, opacity, emissive;
+    MaterialMap metallic_map, roughness_map;  ///< of metallic, in place of their factors
     glm::dvec3 diffuse_factor{1};
     std::optional<glm::dvec3> specular_factor;  ///< nothing: the file doesn't say
     std::optional<double> exponent;             ///< of a Phong lobe; multiplies its map

@@ -153,7 +153,8 @@ class BakeRun {
                                 source.read.colour_space,
                                 job_.working_space,
                                 source.read.with_alpha,
-                                {job_.max_side, job_.max_decoded_bytes}});
+                                {job_.max_side, job_.max_decoded_bytes},
+                                source.read.as_codes});
     }
 
     void warn_of(const job::Source& source, const SourceImage& image) {
@@ -167,7 +168,10 @@ class BakeRun {
             report_.warnings.push_back(path + ": " + std::to_string(repairs.negative) +
                                        " texels were negative (lowest " + number_text(repairs.lowest) +
                                        "); they became 0");
-        if (image.colour_space_assumed) assumed_[image.colour_space].push_back(path);
+        if (!image.colour_doubt.empty())
+            report_.warnings.push_back(path + ": " + image.colour_doubt);
+        else if (image.colour_space_assumed)
+            assumed_[image.colour_space].push_back(path);
     }
 
     void warn_of_assumptions() {
@@ -201,7 +205,10 @@ class BakeRun {
 
     /// Nobody looks at sources' texels any more; the record still wants the rest.
     void release_sources() {
-        for (auto& [field, source] : inputs_) source.image.levels.clear();
+        for (auto& [field, source] : inputs_) {
+            source.image.levels.clear();
+            source.codes = {};
+        }
     }
 
     void encode() {

@@ -20,8 +20,10 @@ constexpr std::string_view kGltfEnd = ".gltf";
 
 /// Whether a set is more than factors, its only texel.
 bool has_pictures(const TextureParams& params) {
-    const std::array pictures{&params.diffuse,   &params.specular, &params.gloss,   &params.normal,
-                              &params.occlusion, &params.opacity,  &params.emissive};
+    const std::array pictures{&params.diffuse,  &params.specular,   &params.gloss,
+                              &params.normal,   &params.occlusion,  &params.opacity,
+                              &params.emissive, &params.base_color, &params.metallic_roughness,
+                              &params.metallic};
     return std::ranges::any_of(pictures, [](const std::string* path) { return !path->empty(); });
 }
 
@@ -39,15 +41,21 @@ Image grey_image(std::string_view name, int width, int height) {
     return {std::string(name), {"R"}, 1, {{width, height, std::vector<float>(texels)}}, Transfer::linear};
 }
 
-/// Black to white over a colour difference of 0 to 10, before codes.
-float difference_of(const Layout& layout, const MapLevel& level, std::size_t i,
-                    const pbr::MetallicMaterial<float>& material, pbr::Scattering scattering) {
-    constexpr float kFullScale = 10;
-    const float p = level.perceptual_roughness[i];
-    const Colour before = pbr_albedo({level.diffuse[i], level.f0[i]}, p, scattering).total();
-    const Colour after =
-        pbr_albedo(pbr::reflected_from_metallic(material, layout.coupling), p, scattering).total();
-    return std::min(1.f, static_cast<float>(delta_e(before, after)) / kFullScale);
+/// A map's value of a texel, before codes: what an even sky makes of it against what it made of the source.
+float map_value(ExtraMap map, const Layout& layout, const Rows& rows, std::size_t i,
+                const pbr::MetallicMaterial<float>& material, pbr::Scattering scattering) {
+    if (map == ExtraMap::confidence) return rows.confidence[i];
+    constexpr double kLargestDelta = 10, kLargestChange = .5;
+    const Colour before = rows.albedo[i];
+    const Colour after = pbr_albedo(packed_reflection(layout, rows.level, i, material),
+                                    rows.level.perceptual_roughness[i], scattering)
+                             .total();
+    if (map == ExtraMap::difference)
+        return static_cast<float>(std::min(1., delta_e(before, after) / kLargestDelta));
+    const double energy = static_cast<double>(pbr::mean_channel(before)),
+                 change = static_cast<double>(pbr::mean_channel(after)) - energy;
+    const double relative = energy > 0 ? change / energy : 0;
+    return static_cast<float>(.5 + std::clamp(relative / kLargestChange, -1., 1.) / 2);
 }
 
 /// Adds what triangular noise of one code's width takes from banding, where codes are 8 bits.
@@ -64,7 +72,9 @@ void dither(const TextureParams& params, std::vector<Image>& images) {
                 const float code = images[m].transfer == Transfer::srgb && i % images[m].channels.size() < 3
                                        ? 2 * half_step(value, 8, true)
                                        : kCode;
-                if (value > 0 && value < 1) value += static_cast<float>(noise) * code / 2;
+                // Black and white stay what they are, and no noise leads beyond them.
+                if (value > 0 && value < 1)
+                    value = std::clamp(value + static_cast<float>(noise) * code / 2, 0.f, 1.f);
             }
 }
 
@@ -111,13 +121,13 @@ class SetBake {
 
     Product run() {
         convert_largest();
-        const float unit = layout_.has_residual ? specular_unit() : 1;
-        if (layout_.has_residual) divide_specular(unit);
         while (static_cast<int>(images_.front().levels.size()) != params_.levels && !is_smallest()) {
             context_.check_cancelled();
-            add_level(unit);
+            add_level();
             if (std::max(next_.width, next_.height) > 1) next_ = next_level(next_, context_);
         }
+        const float unit = layout_.has_residual ? specular_unit() : 1;
+        if (layout_.has_residual) divide_specular(unit);
         Product product;
         product.images = std::move(images_);
         for (Image& image : extras_) product.images.push_back(std::move(image));
@@ -187,7 +197,7 @@ class SetBake {
                 const int top = first_row_under(first, height, next_),
                           bottom = first_row_under(last, height, next_),
                           reach = last_row_under(last - 1, height, next_) + 1;
-                const Rows& rows = converter.convert(top, std::max(bottom, reach), findings_);
+                const Rows& rows = converter.convert(top, bottom, std::max(bottom, reach), findings_);
                 for (int y = top; y < bottom; ++y) pack_row(rows, y, materials);
                 for (int y = first; has_next && y < last; ++y) fill_row(rows.level, top, height, y, next_);
             }
@@ -207,19 +217,19 @@ class SetBake {
                 largest = std::max(largest, pbr::max_channel(materials[x].dielectric_f0));
         }
         for (std::size_t i = 0; i < layout_.images.size(); ++i)
-            pack(layout_.images[i], level, begin, begin + width, materials.data(), 1, to,
+            pack(layout_.images[i], level, begin, begin + width, materials.data(), to,
                  images_[i].levels.front().texels);
-        const auto scattering = params_.multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
+        const pbr::Scattering scattering = scattering_of(params_);
         for (std::size_t i = 0; i < extras_.size(); ++i)
             for (std::size_t x = 0; x < width; ++x)
                 extras_[i].levels.front().texels[to + x] =
-                    params_.maps[i] == ExtraMap::confidence
-                        ? rows.confidence[begin + x]
-                        : difference_of(layout_, level, begin + x, materials[x], scattering);
+                    map_value(params_.maps[i], layout_, rows, begin + x, materials[x], scattering);
     }
 
     /// The largest dielectric f0 that matters, at least the usual one: what a code of 1 stands for. Texels
-    /// that are nearly all metal don't show theirs.
+    /// that are nearly all metal don't show theirs. Of the largest level: where smaller ones mix metal with
+    /// dielectric, what is left for dielectric f0 can be twenty times as much, and would take level 0's
+    /// codes.
     float specular_unit() const {
         return std::max(static_cast<float>(params_.dielectric_f0), *std::ranges::max_element(largest_f0_));
     }
@@ -228,10 +238,11 @@ class SetBake {
     void divide_specular(float unit) {
         for (std::size_t i = 0; i < layout_.images.size(); ++i)
             if (layout_.images[i].channels.front() == Held::dielectric_r)
-                for (float& value : images_[i].levels.front().texels) value = std::min(1.f, value / unit);
+                for (Level& level : images_[i].levels)
+                    for (float& value : level.texels) value = std::min(1.f, value / unit);
     }
 
-    void add_level(float unit) {
+    void add_level() {
         for (std::size_t i = 0; i < layout_.images.size(); ++i)
             images_[i].levels.push_back(empty_level(next_.width, next_.height, layout_.images[i]));
         const auto width = static_cast<std::size_t>(next_.width);
@@ -242,7 +253,7 @@ class SetBake {
                 for (std::size_t x = 0; x < width; ++x)
                     materials[x] = material_of(params_, layout_, next_, first + x, Colour(1e-6f));
                 for (std::size_t i = 0; i < layout_.images.size(); ++i)
-                    pack(layout_.images[i], next_, first, first + width, materials.data(), unit, first,
+                    pack(layout_.images[i], next_, first, first + width, materials.data(), first,
                          images_[i].levels.back().texels);
             }
         });
@@ -259,13 +270,53 @@ class SetBake {
     MapLevel next_;
 };
 
-}  // namespace
-
-std::vector<Mistake> check(const TextureParams& params, const std::string& format) {
+/// Which maps a model has.
+std::vector<Mistake> check_maps(const TextureParams& params) {
     std::vector<Mistake> mistakes;
+    const bool is_metallic = params.model == Model::metallic_roughness;
+    const auto refuse = [&](const char* field, const std::string& path, const char* allowed) {
+        if (!path.empty())
+            mistakes.push_back({field, "found one beside model " + std::string(enum_name(params.model)) +
+                                           "; allowed: " + allowed});
+    };
+    if (is_metallic) {
+        constexpr const char* kAllowed = "base_color, metallic_roughness or metallic and gloss";
+        refuse("/diffuse", params.diffuse, kAllowed);
+        refuse("/specular", params.specular, kAllowed);
+        if (!params.metallic.empty())
+            refuse("/metallic_roughness", params.metallic_roughness, "it or metallic");
+        const bool has_any =
+            !params.base_color.empty() || !params.metallic_roughness.empty() || !params.metallic.empty();
+        if (!has_any && params.source.empty())
+            mistakes.push_back({"/base_color",
+                                "missing, and metallic_roughness too; a set has one of them at least, or a "
+                                "source"});
+        if (params.calibrate == Calibrate::library)
+            mistakes.push_back({"/calibrate",
+                                "found \"library\", but a metallic_roughness set has no specular; "
+                                "allowed: auto, none"});
+        return mistakes;
+    }
+    for (const auto& [field, path] : {std::pair("/base_color", &params.base_color),
+                                      {"/metallic_roughness", &params.metallic_roughness},
+                                      {"/metallic", &params.metallic}})
+        refuse(field, *path, "model metallic_roughness");
     if (params.source.empty() && params.diffuse.empty() && params.specular.empty())
         mistakes.push_back(
             {"/diffuse", "missing, and specular too; a set has one of them at least, or a source"});
+    const bool has_unknown_gloss = params.gloss_is == GlossIs::automatic && !params.gloss.empty() &&
+                                   gloss_named(params.gloss) == GlossIs::automatic;
+    if (has_unknown_gloss && params.model != Model::specular_gloss && params.rules.empty())
+        mistakes.push_back(
+            {"/gloss_is", "missing; an exponent map of a " + std::string(enum_name(params.model)) +
+                              " lobe needs its scale: power or power_log2 with power_scale, or smoothness"});
+    return mistakes;
+}
+
+}  // namespace
+
+std::vector<Mistake> check(const TextureParams& params, const std::string& format) {
+    std::vector<Mistake> mistakes = check_maps(params);
     if (params.source.empty() && !params.material.empty())
         mistakes.push_back({"/material", "needs the source that it is in"});
     if (format == "gltf" && params.packing != Packing::gltf)
@@ -277,28 +328,27 @@ std::vector<Mistake> check(const TextureParams& params, const std::string& forma
     if (container && !container->is_chain && params.levels != 1)
         mistakes.push_back({"/levels", "found " + std::to_string(params.levels) + ", but " + format +
                                            " holds one level; allowed: 1, or format exr, ktx2, dds"});
-    if (params.gloss_is == GlossIs::automatic && !params.gloss.empty() &&
-        params.model != Model::specular_gloss)
-        mistakes.push_back(
-            {"/gloss_is", "missing; an exponent map of a " + std::string(enum_name(params.model)) +
-                              " lobe needs its scale: power or power_log2 with power_scale, or smoothness"});
     return mistakes;
 }
 
 std::vector<Read> reads(const TextureParams& params) {
     std::vector<Read> list;
     const auto add = [&](const char* field, const std::string& path, const std::string& space) {
-        if (!path.empty()) list.push_back({field, path, space, Read::As::picture, true});
+        if (!path.empty()) list.push_back({field, path, space, Read::As::picture, true, true});
     };
     add("diffuse", params.diffuse, params.colour_space);
     add("specular", params.specular, params.colour_space);
+    add("base_color", params.base_color, params.colour_space);
     add("gloss", params.gloss, "raw");
+    add("metallic_roughness", params.metallic_roughness, "raw");
+    add("metallic", params.metallic, "raw");
     add("normal", params.normal, "raw");
     add("occlusion", params.occlusion, "raw");
     add("opacity", params.opacity, "raw");
     add("emissive", params.emissive, params.colour_space);
+    if (!params.rules.empty()) list.push_back({"rules", params.rules, "", Read::As::text});
     if (parse::has_material_extension(params.source))
-        list.push_back({"source", params.source, "auto", Read::As::text, false});
+        list.push_back({"source", params.source, "", Read::As::text});
     return list;
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <mutex>
 #include <numeric>
+
+#include "bakers/texture/names.hpp"
+#include "bakers/texture/rules.hpp"
 
 namespace pbrbake::texture {
 namespace {
@@ -117,20 +119,9 @@ Statistics statistics_of(const Sources& sources, Context& context) {
 }  // namespace
 
 const SurfaceWord* surface_word(const std::string& path) {
-    std::string word;
-    const std::size_t begin =
-        path.find_last_of("/\\") == std::string::npos ? 0 : path.find_last_of("/\\") + 1;
-    for (std::size_t i = begin; i <= path.size(); ++i) {
-        const auto letter =
-            i < path.size() ? static_cast<unsigned char>(path[i]) : static_cast<unsigned char>('_');
-        if (std::isalpha(letter)) {
-            word += static_cast<char>(std::tolower(letter));
-            continue;
-        }
+    for (const std::string& word : words_of(path))
         for (const SurfaceWord& known : kWords)
             if (known.word == word) return &known;
-        word.clear();
-    }
     return nullptr;
 }
 
@@ -150,32 +141,36 @@ std::string_view kind_name(Calibration::Kind kind) {
 
 Calibration find_calibration(const Sources& sources, Context& context) {
     const TextureParams& params = sources.params();
+    Calibration result;
+    if (params.model == Model::metallic_roughness) return result;
     const SurfaceWord* word = surface_word(params.material);
-    if (!word) word = surface_word(params.diffuse.empty() ? params.specular : params.diffuse);
+    if (!word) word = surface_word(name_of_set(params));
+    const std::optional<Colour>& ruled = sources.rules().f0;
     const bool is_legacy = params.model != Model::specular_gloss;
-    const bool wanted =
-        params.calibrate == Calibrate::library || (params.calibrate == Calibrate::automatic && is_legacy);
+    const bool wanted = params.calibrate == Calibrate::library ||
+                        (params.calibrate == Calibrate::automatic && (is_legacy || ruled));
     if (params.surface == SurfaceIs::any || (params.surface == SurfaceIs::automatic && !wanted))
         word = nullptr;
     bool is_metal = params.surface == SurfaceIs::metal;
     const bool is_told = is_metal || params.surface == SurfaceIs::dielectric || word != nullptr;
     if (params.surface == SurfaceIs::automatic && word) is_metal = word->is_metal;
-    Calibration result;
     result.surface = !is_told ? "any" : is_metal ? "metal" : "dielectric";
     if (word) result.word = word->word;
     if (!wanted) return result;
 
     const Statistics statistics = statistics_of(sources, context);
+    const bool word_fits = word && word->is_metal == is_metal;
     if (is_told && is_metal) {
         constexpr Colour kIron(.56f, .57f, .58f);
         result.kind = Calibration::Kind::metal;
-        result.metal = word && word->is_metal ? word->f0 : kIron;
+        result.metal = ruled ? *ruled : word_fits ? word->f0 : kIron;
         result.brightness = statistics.diffuse + statistics.f0;
         if (statistics.f0 > 0)
             result.scale = static_cast<double>(pbr::mean_channel(result.metal)) / statistics.f0;
     } else if (is_told) {
-        const double reference =
-            word && !word->is_metal ? static_cast<double>(word->f0.x) : params.dielectric_f0;
+        const double reference = ruled       ? static_cast<double>(pbr::mean_channel(*ruled))
+                                 : word_fits ? static_cast<double>(word->f0.x)
+                                             : params.dielectric_f0;
         result.kind = Calibration::Kind::dielectric;
         if (statistics.f0 > 0) result.scale = reference / statistics.f0;
     } else if (statistics.dielectric_median > params.dielectric_f0 + 2 * params.f0_tolerance) {
@@ -189,7 +184,9 @@ double green_correlation(const Sources& sources, Context& context) {
     struct Sums {
         double product = 0, xx = 0, yy = 0;
     };
-    std::vector<Sums> rows(static_cast<std::size_t>(sources.height()));
+    constexpr int kMostPairs = 512;
+    const int gaps = sources.height() - 1, pairs = std::min(gaps, kMostPairs);
+    std::vector<Sums> rows(static_cast<std::size_t>(pairs));
     struct Slope {
         float x, y;
     };
@@ -200,12 +197,13 @@ double green_correlation(const Sources& sources, Context& context) {
             slopes[static_cast<std::size_t>(x)] = {-n.x / z, -n.y / z};
         }
     };
-    context.parallel_for(sources.height() - 1, 64, [&](std::int64_t begin, std::int64_t end) {
+    context.parallel_for(pairs, 16, [&](std::int64_t begin, std::int64_t end) {
         std::vector<Slope> upper(static_cast<std::size_t>(sources.width())), lower = upper;
-        slopes_of(static_cast<int>(begin), upper);
-        for (std::int64_t y = begin; y < end; ++y) {
-            slopes_of(static_cast<int>(y + 1), lower);
-            Sums& sums = rows[static_cast<std::size_t>(y)];
+        for (std::int64_t i = begin; i < end; ++i) {
+            const auto y = static_cast<int>(i * gaps / pairs);
+            slopes_of(y, upper);
+            slopes_of(y + 1, lower);
+            Sums& sums = rows[static_cast<std::size_t>(i)];
             for (std::size_t x = 0; x + 1 < upper.size(); ++x) {
                 // Rows go down, so d/dy of the upward axis is minus the difference of rows.
                 const double a = upper[x].x - lower[x].x, b = upper[x + 1].y - upper[x].y;
@@ -213,7 +211,6 @@ double green_correlation(const Sources& sources, Context& context) {
                 sums.xx += a * a;
                 sums.yy += b * b;
             }
-            std::swap(upper, lower);
         }
     });
     Sums all;

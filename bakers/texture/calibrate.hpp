@@ -37,7 +37,8 @@ std::string_view kind_name(Calibration::Kind kind);
 /// Finds a set's calibration; looks at all texels where the job asks for one.
 Calibration find_calibration(const Sources& sources, Context& context);
 
-/// Which way green points: correlation of d(slope x)/dy with d(slope y)/dx over the map, as if y went up.
+/// Which way green points: correlation of d(slope x)/dy with d(slope y)/dx, as if y went up, over up to 512
+/// pairs of rows.
 /// Slopes of a height field are free of curl, so it is > 0 where green is up, < 0 where it is down; 0 of a
 /// flat map.
 double green_correlation(const Sources& sources, Context& context);

@@ -82,23 +82,21 @@ class Comparer {
                     ? product.properties["set"]["dielectric_f0_unit"].get<float>()
                     : 1),
           calibration_(find_calibration(sources, context)),
-          scattering_(sources.params().multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single) {}
+          scattering_(scattering_of(sources.params())) {}
 
     bool is_calibrated() const { return calibration_.kind != Calibration::Kind::none; }
 
     Comparison operator()(std::uint64_t texel) const {
         const auto width = static_cast<std::uint64_t>(sources_.width());
         const auto x = static_cast<int>(texel % width), y = static_cast<int>(texel / width);
-        const Unpacked stored = product_.images.empty() ? factors_from(product_.properties["set"]["factors"])
-                                                        : unpack(sources_.params(), layout_, product_.images,
-                                                                 x, y, unit_, product_.scale);
-        const auto after = pbr::reflected_from_metallic(stored.material, layout_.coupling);
+        const Unpacked stored =
+            product_.images.empty()
+                ? factors_from(product_.properties["set"]["factors"], layout_)
+                : unpack(sources_.params(), layout_, product_.images, x, y, unit_, product_.scale);
+        const pbr::Reflected<float>& after = stored.reflected;
         const LegacyTexel legacy = sources_.texel(x, y);
         const pbr::Reflected<float> before = calibration_(legacy.reflected);
-        Albedo truth = pbr_albedo(before, legacy.perceptual_roughness, scattering_);
-        // A Phong lobe's albedo comes from its closed form, not from the f0 that was solved for it.
-        const bool has_lobe = sources_.params().model != Model::specular_gloss && sources_.has_specular();
-        if (has_lobe && !is_calibrated()) truth.specular = legacy.specular_albedo;
+        const Albedo truth = source_albedo(sources_, calibration_, legacy, before);
         const Albedo found = pbr_albedo(after, stored.perceptual_roughness, scattering_);
         Comparison result;
         result.energy = static_cast<double>(pbr::mean_channel(truth.total()));

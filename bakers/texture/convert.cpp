@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/texture/difference.hpp"
+
 namespace pbrbake::texture {
 namespace {
 
@@ -43,20 +45,24 @@ Converter::Converter(const Sources& sources, const Survey& survey, int most_rows
     if (sources.has_emissive()) level.emissive.resize(texels);
     rows_.confidence.resize(texels);
     rows_.tolerance.resize(texels);
+    const auto asks_for_albedo = [](ExtraMap map) { return map != ExtraMap::confidence; };
+    if (std::ranges::any_of(sources.params().maps, asks_for_albedo)) rows_.albedo.resize(texels);
 }
 
-const Rows& Converter::convert(int begin, int end, std::vector<Findings>& findings) {
+const Rows& Converter::convert(int begin, int own_end, int end, std::vector<Findings>& findings) {
     MapLevel& level = rows_.level;
     rows_.first = begin;
     level.height = end - begin;
     const int reach = estimate_.regularises() ? kMetalReach : 0;
     for (int y = begin - reach; y < end + reach; ++y) {
         const bool is_own = y >= begin && y < end;
-        read(y, y - begin + kMetalReach, is_own, is_own ? &findings[static_cast<std::size_t>(y)] : nullptr);
+        Findings* found = y >= begin && y < own_end ? &findings[static_cast<std::size_t>(y)] : nullptr;
+        read(y, y - begin + kMetalReach, is_own, found);
     }
     for (int y = begin; y < end; ++y) {
         float* metallic = level.metallic.data() + static_cast<std::size_t>(y - begin) * level.width;
         if (reach > 0) metal_.regularise(y - begin + kMetalReach, metallic);
+        if (y >= own_end) continue;
         Findings& found = findings[static_cast<std::size_t>(y)];
         for (int x = 0; x < level.width; ++x) found.metallic += static_cast<double>(metallic[x]);
     }
@@ -78,13 +84,16 @@ void Converter::read(int y, int slot, bool is_own, Findings* findings) {
         LegacyTexel& texel = line_[static_cast<std::size_t>(x)];
         const pbr::Reflected<float> reflected = survey_.calibration(texel.reflected);
         texel.quantisation.f0 *= f0_scale;
-        const pbr::MetallicEstimate<float> estimate = estimate_(reflected, texel.quantisation);
+        const pbr::MetallicEstimate<float> estimate = texel.metallic >= 0
+                                                          ? pbr::MetallicEstimate<float>{texel.metallic, 1}
+                                                          : estimate_(reflected, texel.quantisation);
         if (estimate_.regularises()) metal_.set(slot, x, reflected, estimate);
         if (!is_own) continue;
         const std::size_t i = static_cast<std::size_t>(y - rows_.first) * rows_.level.width + x;
         read_own(x, y, texel, reflected);
         rows_.level.metallic[i] = estimate.metallic;
         rows_.confidence[i] = estimate.confidence;
+        if (!findings) continue;
         findings->f0_clamped += texel.f0_clamped;
         findings->over_unity += pbr::max_channel(reflected.diffuse + reflected.f0) > kAllLight ? 1 : 0;
         findings->low_confidence += estimate.confidence < .5f ? 1 : 0;
@@ -101,6 +110,8 @@ void Converter::read_own(int x, int y, const LegacyTexel& texel, const pbr::Refl
     level.perceptual_roughness[i] = texel.perceptual_roughness;
     rows_.tolerance[i] =
         glm::clamp(texel.quantisation.diffuse, Colour(kLeastTolerance), Colour(kLargestTolerance));
+    if (!rows_.albedo.empty())
+        rows_.albedo[i] = source_albedo(sources_, survey_.calibration, texel, reflected).total();
     if (sources_.has_normal()) {
         level.normal[i] = sources_.normal(x, y);
         if (survey_.green_down) level.normal[i].y = -level.normal[i].y;

@@ -25,14 +25,17 @@ struct Rows {
     std::vector<float> confidence;
     /// What each texel's diffuse may be moved by: half its file's interval.
     std::vector<Colour> tolerance;
+    /// What each texel of the set returns of an even sky (source_albedo); empty where no map asks for it.
+    std::vector<Colour> albedo;
 };
 
 /// Converts rows; holds the room for it, so keep one for many calls. A thread needs its own.
 class Converter {
   public:
     Converter(const Sources& sources, const Survey& survey, int most_rows);
-    /// Rows [begin, end), most_rows of them at most; each row's findings, as sums, go to findings[y].
-    const Rows& convert(int begin, int end, std::vector<Findings>& findings);
+    /// Rows [begin, end), most_rows of them at most; the findings of each before `own_end`, as sums, go to
+    /// findings[y]. What lies beyond is another strip's, which may be at it on another thread.
+    const Rows& convert(int begin, int own_end, int end, std::vector<Findings>& findings);
 
   private:
     int place(int y) const;

@@ -42,9 +42,9 @@ constexpr double kTelling = .5;             ///< correlations beyond are worth a
 constexpr double kLeastExponent = 2;        ///< half of the map wider than any painted lobe
 constexpr double kLargestExponent = 65536;  ///< alpha .0055, narrower than any engine's
 
-void doubt_gloss(const TextureParams& params, Doubts& doubts) {
-    if (!doubts.gloss_correlation || params.gloss_is != GlossIs::automatic) return;
-    if (*doubts.gloss_correlation > -kTelling) return;
+void doubt_gloss(const GlossReading& gloss, Doubts& doubts) {
+    const bool is_assumed = gloss.reason.starts_with("model");
+    if (!doubts.gloss_correlation || !is_assumed || *doubts.gloss_correlation > -kTelling) return;
     doubts.warnings.push_back("gloss is low where specular is bright (correlation " +
                               short_text(*doubts.gloss_correlation) +
                               "), as a roughness map's values are; if it is one, state gloss_is "
@@ -66,8 +66,8 @@ void doubt_exponents(Doubts& doubts) {
 
 Doubts find_doubts(const Sources& sources) {
     constexpr int kSide = 256;
-    const TextureParams& params = sources.params();
-    const bool has_exponents = params.gloss_is == GlossIs::power || params.gloss_is == GlossIs::power_log2;
+    const GlossIs is = sources.gloss().is;
+    const bool has_exponents = is == GlossIs::power || is == GlossIs::power_log2;
     const int step_x = std::max(1, sources.width() / kSide), step_y = std::max(1, sources.height() / kSide);
     Correlation gloss, occlusion;
     std::vector<double> exponents;
@@ -90,7 +90,7 @@ Doubts find_doubts(const Sources& sources) {
         doubts.exponent_median = *middle;
         doubts.exponent_max = *std::ranges::max_element(exponents);
     }
-    doubt_gloss(params, doubts);
+    doubt_gloss(sources.gloss(), doubts);
     doubt_exponents(doubts);
     if (doubts.occlusion_correlation.value_or(0) > kTelling)
         doubts.warnings.push_back("diffuse is dark where occlusion is (correlation " +

@@ -36,6 +36,17 @@ Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_rough
     return {reflected.diffuse, grey > 0 ? reflected.f0 * static_cast<float>(mean / grey) : Colour(0)};
 }
 
+Albedo source_albedo(const Sources& sources, const Calibration& calibration, const LegacyTexel& texel,
+                     const pbr::Reflected<float>& calibrated) {
+    if (sources.has_legacy_lobe() && calibration.kind == Calibration::Kind::none)
+        return {calibrated.diffuse, texel.specular_albedo};
+    return pbr_albedo(calibrated, texel.perceptual_roughness, scattering_of(sources.params()));
+}
+
+pbr::Scattering scattering_of(const TextureParams& params) {
+    return params.multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
+}
+
 double delta_e(const Colour& a, const Colour& b) {
     const std::array<double, 3> p = lab(a), q = lab(b);
     return std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +

@@ -1,6 +1,7 @@
 #pragma once
 // How far a PBR texel is from the legacy one: what both lobes reflect, and how that looks.
 
+#include "bakers/texture/calibrate.hpp"
 #include "bakers/texture/maps.hpp"
 
 namespace pbrbake::texture {
@@ -14,6 +15,13 @@ struct Albedo {
 /// Of a GGX lobe: its mean albedo per channel, f90 by Frostbite's rule on the mean channel.
 Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness,
                   pbr::Scattering scattering);
+
+/// Of a texel of the set, and what its calibration makes of it. A Phong lobe's specular albedo comes from its
+/// closed form, not from the f0 that was solved for it; a calibrated one's from that f0.
+Albedo source_albedo(const Sources& sources, const Calibration& calibration, const LegacyTexel& texel,
+                     const pbr::Reflected<float>& calibrated);
+
+pbr::Scattering scattering_of(const TextureParams& params);
 
 /// CIE 1976 colour difference of two linear Rec. 709 colours under D65, 0 to about 100; 1 is just seen.
 double delta_e(const Colour& a, const Colour& b);

@@ -21,8 +21,11 @@ class Material {
     Json build(float specular_unit, const std::optional<Unpacked>& factors) {
         if (factors)
             add_factors(*factors);
+        else if (layout_.is_specular_gloss)
+            add_specular_gloss();
         else
-            add_textures(specular_unit);
+            add_metallic(specular_unit);
+        if (!factors) add_relief();
         add_opacity();
         add_emission(!factors);
         if (params_.double_sided) material_["doubleSided"] = true;
@@ -44,11 +47,10 @@ class Material {
         return info;
     }
 
-    void add_textures(float specular_unit) {
-        material_["pbrMetallicRoughness"] = {{"baseColorTexture", texture("base_color")},
-                                             {"metallicRoughnessTexture", texture("orm")}};
+    /// Occlusion and normals.
+    void add_relief() {
         if (!params_.occlusion.empty()) {
-            material_["occlusionTexture"] = texture("orm");
+            material_["occlusionTexture"] = texture(layout_.is_specular_gloss ? "occlusion" : "orm");
             if (params_.occlusion_strength != 1)
                 material_["occlusionTexture"]["strength"] = params_.occlusion_strength;
         }
@@ -56,6 +58,16 @@ class Material {
             material_["normalTexture"] = texture("normal");
             if (params_.normal_scale != 1) material_["normalTexture"]["scale"] = params_.normal_scale;
         }
+    }
+
+    void add_specular_gloss() {
+        material_["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+            {"diffuseTexture", texture("diffuse")}, {"specularGlossinessTexture", texture("specular_gloss")}};
+    }
+
+    void add_metallic(float specular_unit) {
+        material_["pbrMetallicRoughness"] = {{"baseColorTexture", texture("base_color")},
+                                             {"metallicRoughnessTexture", texture("orm")}};
         if (layout_.has_residual) {
             const double factor = static_cast<double>(specular_unit) / kGltfF0;
             material_["extensions"]["KHR_materials_specular"] = {
@@ -93,7 +105,10 @@ class Material {
     void add_opacity() {
         const bool has_opacity = params_.opacity_factor < 1 || layout_.images.front().channels.size() == 4;
         if (params_.opacity_factor < 1) {
-            Json& factor = material_["pbrMetallicRoughness"]["baseColorFactor"];
+            Json& factor =
+                layout_.is_specular_gloss
+                    ? material_["extensions"]["KHR_materials_pbrSpecularGlossiness"]["diffuseFactor"]
+                    : material_["pbrMetallicRoughness"]["baseColorFactor"];
             if (factor.is_null()) factor = {1, 1, 1, 1};
             factor[3] = params_.opacity_factor;
         }

@@ -9,7 +9,8 @@ namespace pbrbake::texture {
 
 /// {"images": names, "material": a material whose textures are indices of them}. A dielectric f0 beside .04
 /// is KHR_materials_specular where it has a texture or a colour, KHR_materials_ior where it is one grey.
-/// `factors` is the one texel of a set without pictures.
+/// `factors` is the one texel of a set without pictures. A specular-gloss layout is
+/// KHR_materials_pbrSpecularGlossiness, whose factors are 1.
 Json gltf_material(const TextureParams& params, const Layout& layout, float specular_unit,
                    const std::optional<Unpacked>& factors);
 

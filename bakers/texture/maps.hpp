@@ -7,7 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "bakers/texture/texture.hpp"
+#include "bakers/texture/gloss.hpp"
+#include "bakers/texture/picture.hpp"
+#include "bakers/texture/rules.hpp"
 #include "pbr/legacy/energy.hpp"
 #include "pbr/legacy/specular_gloss.hpp"
 
@@ -18,9 +20,10 @@ using Colour = pbr::Vec3<float>;
 /// One texel as its legacy model has it.
 struct LegacyTexel {
     pbr::Reflected<float> reflected;  ///< diffuse albedo, and f0 that keeps the lobe's energy
-    Colour
-        specular_albedo;  ///< of the legacy lobe, the cosine-weighted mean over views; not of specular_gloss
+    /// Of a Phong lobe, the cosine-weighted mean over views.
+    Colour specular_albedo;
     float perceptual_roughness = 0;
+    float metallic = -1;      ///< where the set states it; else < 0
     bool f0_clamped = false;  ///< the PBR lobe can't reflect that much
     pbr::Quantisation<float> quantisation;
 };
@@ -57,62 +60,70 @@ class Sources {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    const TextureParams& params() const { return params_; }
+    const TextureParams& params() const { return rules_.params; }  ///< as the set's rules leave them
+    const RuledSet& rules() const { return rules_; }
+    const GlossReading& gloss() const { return gloss_reading_; }
 
     /// The texel of column x, row y, before calibration.
     LegacyTexel texel(int x, int y) const;
     /// Those of row y, width() of them.
     void row(int y, LegacyTexel* texels) const;
     Colour normal(int x, int y) const;  ///< y as stored
-    float occlusion(int x, int y) const;
-    float opacity(int x, int y) const;
+    float occlusion(int x, int y) const { return unit_value(occlusion_, x, y); }
+    float opacity(int x, int y) const { return unit_value(opacity_, x, y); }
     Colour emissive(int x, int y) const;
-    /// The exponent that gloss stands for, where gloss_is says it holds one; else < 0. Needs has_gloss().
+    /// The exponent that gloss stands for, where it holds one; else < 0. Needs has_gloss().
     float exponent_at(int x, int y) const;
-    bool has_normal() const { return normal_.image != nullptr; }
-    bool has_occlusion() const { return occlusion_.image != nullptr; }
-    bool has_opacity() const { return opacity_.image != nullptr; }
-    bool has_gloss() const { return gloss_.image != nullptr; }
-    bool has_emissive() const { return emissive_.image != nullptr; }
+    bool has_normal() const { return bool(normal_.picture); }
+    bool has_occlusion() const { return bool(occlusion_.picture); }
+    bool has_opacity() const { return bool(opacity_.picture); }
+    bool has_gloss() const { return bool(gloss_.picture); }
+    bool has_emissive() const { return bool(emissive_.picture); }
     /// Whether the set says what it reflects: a map, or a factor.
-    bool has_specular() const {
-        return specular_.image || params_.specular_factor != std::vector<double>{1, 1, 1};
-    }
+    bool has_specular() const { return specular_.picture || specular_factor_ != Colour(1); }
+    /// Whether the set has a Phong lobe, whose albedo is known without an f0.
+    bool has_legacy_lobe() const;
     pbr::DiffuseCoupling coupling() const { return coupling_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
-    /// One channel, or three from `channel` on, of a source.
+    /// One channel, or three from `channel` on, of a picture.
     struct Map {
-        const Image* image = nullptr;
+        Picture picture;
         int channel = 0;
-        int bits = 0;
-        bool is_srgb = false;
+        bool is_full = false;                 ///< as large as the set
+        bool is_srgb = false;                 ///< its codes are even in sRGB
+        std::array<float, 256> half_steps{};  ///< of codes; 0 of floats
     };
-    void fetch(const Map& map, int x, int y, float* values, int count) const;
-    void choose_normal();
-    void choose_gloss();
-    void choose_opacity();
-    void tabulate_gloss();
-    float exponent(float gloss) const;
-    float perceptual_roughness(float gloss, float& exponent) const;
-
     /// What a gloss value stands for.
     struct Lobe {
         float perceptual_roughness = .5f;
         float mean = 0;             ///< albedo of the legacy lobe
         pbr::MeanAlbedo ggx{0, 0};  ///< of the PBR lobe
     };
-    bool has_legacy_lobe() const { return params_.model != Model::specular_gloss && has_specular(); }
+
+    Map map_of(const std::string& field, int channel) const;
+    void choose_normal();
+    void choose_opacity();
+    void tabulate_gloss();
+    void warn_of_sizes(const Inputs& inputs);
+    void fetch(const Map& map, int x, int y, float* values, int count) const;
+    float unit_value(const Map& map, int x, int y) const;
+    Colour colour(const Map& map, const Colour& factor, int x, int y, Colour& half_steps) const;
+    float exponent(float gloss) const;
+    float perceptual_roughness(float gloss, float& exponent) const;
     Lobe lobe_of(float gloss) const;
     Lobe lobe_at(int x, int y) const;
-    Map map_of(const std::string& field, int channel) const;
+    void reflect_metallic(const Colour& base, int x, int y, LegacyTexel& texel) const;
+    void reflect_phong(const Colour& diffuse, const Colour& specular, const Lobe& lobe,
+                       LegacyTexel& texel) const;
 
-    const TextureParams& params_;
+    RuledSet rules_;
     const Inputs& inputs_;
     int width_ = 1, height_ = 1;  ///< of factors alone
-    Map diffuse_, specular_, gloss_, normal_, occlusion_, opacity_, emissive_;
-    bool is_gloss_constant_ = false;  ///< gloss_factor everywhere
+    Map diffuse_, specular_, gloss_, normal_, occlusion_, opacity_, emissive_, metallic_;
+    Colour diffuse_factor_, specular_factor_;
+    GlossReading gloss_reading_;
     pbr::DiffuseCoupling coupling_;
     std::vector<Lobe> lobes_;  ///< of the codes of an 8-bit gloss map, or the one lobe without a map
     std::vector<std::string> warnings_;

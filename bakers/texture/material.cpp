@@ -7,7 +7,7 @@
 namespace pbrbake::texture {
 namespace {
 
-constexpr std::array<std::string_view, 22> kHeldNames{"0",
+constexpr std::array<std::string_view, 28> kHeldNames{"0",
                                                       "1",
                                                       "base_color.r",
                                                       "base_color.g",
@@ -28,7 +28,13 @@ constexpr std::array<std::string_view, 22> kHeldNames{"0",
                                                       "dielectric_f0.b",
                                                       "emissive.r",
                                                       "emissive.g",
-                                                      "emissive.b"};
+                                                      "emissive.b",
+                                                      "diffuse.r",
+                                                      "diffuse.g",
+                                                      "diffuse.b",
+                                                      "f0.r",
+                                                      "f0.g",
+                                                      "f0.b"};
 
 Json channels_json(const Layout& layout) {
     Json images = Json::object();
@@ -55,6 +61,16 @@ Json surface_json(const TextureParams& params) {
             {"uv_rotation", params.uv_rotation}};
 }
 
+/// What was read as gloss, as what, and why.
+Json gloss_json(const GlossReading& gloss) {
+    constexpr std::array kChannels{".r", ".g", ".b", ".a"};
+    Json json{{"in", enum_name(gloss.in)}};
+    if (!gloss.field.empty()) json["in"] = gloss.field + kChannels[static_cast<std::size_t>(gloss.channel)];
+    if (gloss.in != GlossIn::none) json["is"] = enum_name(gloss.is);
+    json["reason"] = gloss.reason;
+    return json;
+}
+
 }  // namespace
 
 Json properties_json(const TextureParams& params, const Layout& layout, const Survey& survey,
@@ -68,6 +84,8 @@ Json properties_json(const TextureParams& params, const Layout& layout, const Su
     if (!calibration.word.empty()) json["surface_word"] = calibration.word;
     json["calibration"] = kind_name(calibration.kind);
     json["specular_scale"] = calibration.scale;
+    if (!sources.rules().matched.empty()) json["rules"] = sources.rules().matched;
+    json["gloss"] = gloss_json(sources.gloss());
     json["diffuse_alpha"] = sources.has_opacity() && params.opacity.empty() ? "opacity" : "nothing";
     if (sources.has_normal()) {
         json["normal_green"] = survey.green_down ? "down" : "up";
@@ -96,11 +114,13 @@ Json factors_json(const Unpacked& factors) {
             {"dielectric_f0", {f0.x, f0.y, f0.z}}};
 }
 
-Unpacked factors_from(const Json& json) {
+Unpacked factors_from(const Json& json, const Layout& layout) {
     const auto colour = [](const Json& list) {
         return Colour(list[0].get<float>(), list[1].get<float>(), list[2].get<float>());
     };
-    return {{colour(json["base_color"]), json["metallic"].get<float>(), colour(json["dielectric_f0"])},
+    const pbr::MetallicMaterial<float> material{colour(json["base_color"]), json["metallic"].get<float>(),
+                                                colour(json["dielectric_f0"])};
+    return {material, pbr::reflected_from_metallic(material, layout.coupling),
             json["perceptual_roughness"].get<float>()};
 }
 
@@ -111,7 +131,8 @@ Json material_json(const TextureParams& params, const Layout& layout, float spec
     json["channels"] = factors ? Json::object() : channels_json(layout);
     if (factors) json["factors"] = factors_json(*factors);
     json["surface"] = surface_json(params);
-    if (params.packing == Packing::gltf) json["gltf"] = gltf_material(params, layout, specular_unit, factors);
+    if (params.packing == Packing::gltf || layout.is_specular_gloss)
+        json["gltf"] = gltf_material(params, layout, specular_unit, factors);
     if (layout.has_residual && !factors) json["dielectric_f0_unit"] = specular_unit;
     return json;
 }

@@ -11,12 +11,12 @@ Json properties_json(const TextureParams& params, const Layout& layout, const Su
                      const Findings& findings, const Sources& sources, float specular_unit);
 
 /// NAME.material.json, schemas/material.schema.json: what each channel holds, or the factors of a set without
-/// pictures; what the renderer applies besides; and with packing gltf the glTF material.
+/// pictures; what the renderer applies besides; and with packing gltf and specular_gloss the glTF material.
 Json material_json(const TextureParams& params, const Layout& layout, float specular_unit,
                    const std::optional<Unpacked>& factors);
 
 /// "factors" of a record, and back.
 Json factors_json(const Unpacked& factors);
-Unpacked factors_from(const Json& json);
+Unpacked factors_from(const Json& json, const Layout& layout);
 
 }  // namespace pbrbake::texture

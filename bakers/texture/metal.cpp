@@ -15,7 +15,8 @@ MetalEstimator::MetalEstimator(const Sources& sources, const Calibration& calibr
     : prior_{static_cast<float>(sources.params().dielectric_f0),
              static_cast<float>(sources.params().f0_tolerance), .01f},
       coupling_(sources.coupling()),
-      regularises_(sources.params().regularise && calibration.surface == "any") {
+      regularises_(sources.params().regularise && calibration.surface == "any" &&
+                   sources.params().model != Model::metallic_roughness) {
     constexpr float kGuessedScale = .5f;
     if (calibration.surface != "any") told_ = calibration.surface == "metal" ? 1.f : 0.f;
     if (calibration.kind == Calibration::Kind::statistics) trust_ = kGuessedScale;
@@ -76,8 +77,9 @@ void MetalRows::regularise(int row, float* out) const {
 /// Weighted mean of the sure neighbours that look alike: a joint bilateral filter (Petschnigg et al. 2004)
 /// with confidence as a weight; rational instead of Gaussian. Planes and runs, so that compilers vectorise.
 void MetalRows::regularise_run(int row, int begin, int end, float* out) const {
-    constexpr float kAlike2 = .05f * .05f;  // squared distance in diffuse and f0 at which likeness is half
+    constexpr float kAlike2 = .05f * .05f;  // squared distance in diffuse and f0 at which a weight is 1/4
     constexpr float kOwn = 1e-3f;
+    constexpr float kLeast = 1e-6f;
     const int count = end - begin;
     std::array<float, kRun> sum, weights;
     const float* own = plane(metallic, row) + begin;
@@ -102,7 +104,9 @@ void MetalRows::regularise_run(int row, int begin, int end, float* out) const {
                     const float d = there[c][i] - here[c][i];
                     far += d * d;
                 }
-                const float weight = there[confidence][i] * (kAlike2 / (kAlike2 + far));
+                // Squared, so that what is nothing like this texel doesn't outweigh it by its numbers.
+                const float likeness = kAlike2 / (kAlike2 + far);
+                const float weight = there[confidence][i] * likeness * likeness;
                 sum[static_cast<std::size_t>(i)] += weight * there[metallic][i];
                 weights[static_cast<std::size_t>(i)] += weight;
             }
@@ -111,8 +115,14 @@ void MetalRows::regularise_run(int row, int begin, int end, float* out) const {
     const float* sure = plane(confidence, row) + begin;
     for (int i = 0; i < count; ++i) {
         const float doubt = 1 - sure[i] / kSure;
-        out[begin + i] +=
-            doubt * (sum[static_cast<std::size_t>(i)] / weights[static_cast<std::size_t>(i)] - own[i]);
+        const float mean = sum[static_cast<std::size_t>(i)] / weights[static_cast<std::size_t>(i)];
+        // The base colour of so much metal would reflect more than f0, unless diffuse is dimmed.
+        float most = 1;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float d = here[diffuse + c][i], s = here[f0 + c][i];
+            most = std::min(most, (s + kLeast) / (s + d + kLeast));
+        }
+        out[begin + i] = std::min(own[i] + doubt * (mean - own[i]), std::max(most, own[i]));
     }
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 using enum Held;
 constexpr float kUnrealF0 = .08f;
+constexpr auto kSpecularGloss = pbr::DiffuseCoupling::fresnel;  // KHR_materials_pbrSpecularGlossiness
 
 PackedImage base_image(bool has_opacity) {
     PackedImage image{"base_color", {base_r, base_g, base_b}, true};
@@ -17,55 +18,107 @@ PackedImage base_image(bool has_opacity) {
     return image;
 }
 
-float encoded(Held held, const MapLevel& level, const pbr::MetallicMaterial<float>& material, std::size_t i,
-              float specular_unit) {
-    const float f = material.dielectric_f0.x;
-    switch (held) {
-        case zero:
-            return 0;
-        case one:
-            return 1;
-        case base_r:
-        case base_g:
-        case base_b:
-            return material.base_color[static_cast<int>(held) - static_cast<int>(base_r)];
-        case opacity:
-            return level.opacity.empty() ? 1 : level.opacity[i];
-        case metallic:
-            return material.metallic;
-        case perceptual_roughness:
-            return level.perceptual_roughness[i];
-        case smoothness:
-            return 1 - level.perceptual_roughness[i];
-        case reflectance:
-            return std::min(1.f, pbr::reflectance_from_f0(f));
-        case specular:
-            return std::min(1.f, f / kUnrealF0);
-        case occlusion:
-            return level.occlusion.empty() ? 1 : level.occlusion[i];
-        case normal_x:
-            return level.normal.empty() ? .5f : level.normal[i].x * .5f + .5f;
-        case normal_y:
-            return level.normal.empty() ? .5f : level.normal[i].y * .5f + .5f;
-        case normal_y_down:
-            return level.normal.empty() ? .5f : level.normal[i].y * -.5f + .5f;
-        case normal_z:
-            return level.normal.empty() ? 1 : level.normal[i].z * .5f + .5f;
-        case dielectric_r:
-        case dielectric_g:
-        case dielectric_b:
-            return std::min(1.f,
-                            material.dielectric_f0[static_cast<int>(held) - static_cast<int>(dielectric_r)] /
-                                specular_unit);
-        case emissive_r:
-        case emissive_g:
-        case emissive_b:
-            return level.emissive[i][static_cast<int>(held) - static_cast<int>(emissive_r)];
-    }
-    return 0;
+PackedImage diffuse_image(bool has_opacity) {
+    PackedImage image{"diffuse", {diffuse_r, diffuse_g, diffuse_b}, true};
+    if (has_opacity) image.channels.push_back(opacity);
+    return image;
 }
 
-void decode(Held held, float value, float specular_unit, Unpacked& result) {
+/// Some texels of a level, and their materials, on their way into an image.
+struct Texels {
+    const MapLevel& level;
+    std::size_t begin, end;
+    const pbr::MetallicMaterial<float>* materials;  ///< that of `begin` first
+};
+
+/// Writes one channel, every `step`-th float. The choice is made once a run of texels.
+void pack_channel(Held held, const Texels& texels, float* values, std::size_t step) {
+    const MapLevel& level = texels.level;
+    const int first = static_cast<int>(held);
+    const auto fill = [&](const auto& value) {
+        for (std::size_t i = texels.begin; i < texels.end; ++i, values += step) *values = value(i);
+    };
+    const auto fill_from = [&](const auto& map, float absent, const auto& value) {
+        if (map.empty()) return fill([&](std::size_t) { return absent; });
+        fill([&](std::size_t i) { return value(map[i]); });
+    };
+    const auto fill_material = [&](const auto& value) {
+        fill([&](std::size_t i) { return value(texels.materials[i - texels.begin]); });
+    };
+    using Material = pbr::MetallicMaterial<float>;
+    const auto same = [](float value) { return value; };
+    switch (held) {
+        case zero:
+            return fill([](std::size_t) { return 0.f; });
+        case one:
+            return fill([](std::size_t) { return 1.f; });
+        case base_r:
+        case base_g:
+        case base_b: {
+            const int c = first - static_cast<int>(base_r);
+            return fill_material([c](const Material& m) { return m.base_color[c]; });
+        }
+        case opacity:
+            return fill_from(level.opacity, 1, same);
+        case metallic:
+            return fill_material([](const Material& m) { return m.metallic; });
+        case perceptual_roughness:
+            return fill_from(level.perceptual_roughness, 1, same);
+        case smoothness:
+            return fill_from(level.perceptual_roughness, 0, [](float p) { return 1 - p; });
+        case reflectance:
+            return fill_material(
+                [](const Material& m) { return std::min(1.f, pbr::reflectance_from_f0(m.dielectric_f0.x)); });
+        case specular:
+            return fill_material(
+                [](const Material& m) { return std::min(1.f, m.dielectric_f0.x / kUnrealF0); });
+        case occlusion:
+            return fill_from(level.occlusion, 1, same);
+        case normal_x:
+            return fill_from(level.normal, .5f, [](const Colour& n) { return n.x * .5f + .5f; });
+        case normal_y:
+            return fill_from(level.normal, .5f, [](const Colour& n) { return n.y * .5f + .5f; });
+        case normal_y_down:
+            return fill_from(level.normal, .5f, [](const Colour& n) { return n.y * -.5f + .5f; });
+        case normal_z:
+            return fill_from(level.normal, 1, [](const Colour& n) { return n.z * .5f + .5f; });
+        case dielectric_r:
+        case dielectric_g:
+        case dielectric_b: {
+            const int c = first - static_cast<int>(dielectric_r);
+            return fill_material([c](const Material& m) { return m.dielectric_f0[c]; });
+        }
+        case emissive_r:
+        case emissive_g:
+        case emissive_b: {
+            const int c = first - static_cast<int>(emissive_r);
+            return fill_from(level.emissive, 0, [c](const Colour& light) { return light[c]; });
+        }
+        case diffuse_r:
+        case diffuse_g:
+        case diffuse_b: {
+            const int c = first - static_cast<int>(diffuse_r);
+            return fill([&level, c](std::size_t i) {
+                return pbr::diffuse_colour<float>({level.diffuse[i], level.f0[i]}, kSpecularGloss)[c];
+            });
+        }
+        case f0_r:
+        case f0_g:
+        case f0_b: {
+            const int c = first - static_cast<int>(f0_r);
+            return fill_from(level.f0, 0, [c](const Colour& f0) { return f0[c]; });
+        }
+    }
+}
+
+/// A texel's numbers as its images hold them.
+struct Decoded {
+    pbr::MetallicMaterial<float> material;
+    pbr::Reflected<float> specular_gloss{Colour(0), Colour(0)};
+    float perceptual_roughness = .5f;
+};
+
+void decode(Held held, float value, float specular_unit, Decoded& result) {
     switch (held) {
         case base_r:
         case base_g:
@@ -93,6 +146,16 @@ void decode(Held held, float value, float specular_unit, Unpacked& result) {
             result.material.dielectric_f0[static_cast<int>(held) - static_cast<int>(dielectric_r)] =
                 value * specular_unit;
             break;
+        case diffuse_r:
+        case diffuse_g:
+        case diffuse_b:
+            result.specular_gloss.diffuse[static_cast<int>(held) - static_cast<int>(diffuse_r)] = value;
+            break;
+        case f0_r:
+        case f0_g:
+        case f0_b:
+            result.specular_gloss.f0[static_cast<int>(held) - static_cast<int>(f0_r)] = value;
+            break;
         default:
             break;
     }
@@ -100,7 +163,8 @@ void decode(Held held, float value, float specular_unit, Unpacked& result) {
 
 Layout make_layout(const TextureParams& params, bool has_normal, bool has_opacity) {
     Layout layout;
-    layout.images.push_back(base_image(has_opacity));
+    layout.is_specular_gloss = params.packing == Packing::specular_gloss;
+    layout.images.push_back(layout.is_specular_gloss ? diffuse_image(has_opacity) : base_image(has_opacity));
     const auto add = [&](std::string name, std::vector<Held> channels, bool is_colour = false) {
         layout.images.push_back({std::move(name), std::move(channels), is_colour});
     };
@@ -129,6 +193,10 @@ Layout make_layout(const TextureParams& params, bool has_normal, bool has_opacit
             add("reflectance", {reflectance});
             if (!params.occlusion.empty()) add("occlusion", {occlusion});
             break;
+        case Packing::specular_gloss:
+            add("specular_gloss", {f0_r, f0_g, f0_b, smoothness}, true);
+            if (!params.occlusion.empty()) add("occlusion", {occlusion});
+            break;
     }
     if (has_normal) add("normal", {normal_x, down ? normal_y_down : normal_y, normal_z});
     layout.has_residual = params.packing == Packing::gltf && params.residual;
@@ -153,6 +221,7 @@ std::vector<std::string> image_names(const TextureParams& params) {
 
 pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,
                                          const MapLevel& level, std::size_t texel, const Colour& tolerance) {
+    if (layout.is_specular_gloss) return {Colour(0), 0, Colour(0)};
     const pbr::Reflected<float> reflected{level.diffuse[texel], level.f0[texel]};
     const auto f = static_cast<float>(params.dielectric_f0);
     return layout.has_residual
@@ -162,26 +231,32 @@ pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layo
 }
 
 void pack(const PackedImage& image, const MapLevel& level, std::size_t begin, std::size_t end,
-          const pbr::MetallicMaterial<float>* materials, float specular_unit, std::size_t to,
-          std::vector<float>& packed) {
+          const pbr::MetallicMaterial<float>* materials, std::size_t to, std::vector<float>& packed) {
     const std::size_t channels = image.channels.size();
-    for (std::size_t c = 0; c < channels; ++c) {
-        const Held held = image.channels[c];
-        float* values = packed.data() + to * channels + c;
-        for (std::size_t i = begin; i < end; ++i, values += channels)
-            *values = encoded(held, level, materials[i - begin], i, specular_unit);
-    }
+    for (std::size_t c = 0; c < channels; ++c)
+        pack_channel(image.channels[c], {level, begin, end, materials}, packed.data() + to * channels + c,
+                     channels);
+}
+
+pbr::Reflected<float> packed_reflection(const Layout& layout, const MapLevel& level, std::size_t texel,
+                                        const pbr::MetallicMaterial<float>& material) {
+    return layout.is_specular_gloss ? pbr::Reflected<float>{level.diffuse[texel], level.f0[texel]}
+                                    : pbr::reflected_from_metallic(material, layout.coupling);
 }
 
 Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x,
                 int y, float specular_unit, double scale) {
-    Unpacked result{{Colour(0), 0, Colour(static_cast<float>(params.dielectric_f0))}, .5f};
+    Decoded found{{Colour(0), 0, Colour(static_cast<float>(params.dielectric_f0))}};
     for (std::size_t i = 0; i < layout.images.size(); ++i) {
         const float* texel = images[i].texel(0, 0, y, x);
         for (std::size_t c = 0; c < layout.images[i].channels.size(); ++c)
-            decode(layout.images[i].channels[c], static_cast<float>(texel[c] / scale), specular_unit, result);
+            decode(layout.images[i].channels[c], static_cast<float>(texel[c] / scale), specular_unit, found);
     }
-    return result;
+    const pbr::Reflected<float> reflected =
+        layout.is_specular_gloss ? pbr::reflected_from_specular(found.specular_gloss.diffuse,
+                                                                found.specular_gloss.f0, kSpecularGloss)
+                                 : pbr::reflected_from_metallic(found.material, layout.coupling);
+    return {found.material, reflected, found.perceptual_roughness};
 }
 
 }  // namespace pbrbake::texture

@@ -23,12 +23,18 @@ enum class Held {
     normal_y,       ///< up
     normal_y_down,  ///< DirectX
     normal_z,
-    dielectric_r,  ///< dielectric f0 over Layout::specular_unit
+    dielectric_r,  ///< dielectric f0 over the set's unit, in the end
     dielectric_g,
     dielectric_b,
     emissive_r,
     emissive_g,
     emissive_b,
+    diffuse_r,  ///< the diffuse colour of specular-gloss: dimmed by 1 - max f0 when it is read
+    diffuse_g,
+    diffuse_b,
+    f0_r,
+    f0_g,
+    f0_b,
 };
 
 struct PackedImage {
@@ -39,6 +45,7 @@ struct PackedImage {
 
 /// A target's images, the first the base colour's.
 struct Layout {
+    bool is_specular_gloss = false;  ///< holds no metallic material
     std::vector<PackedImage> images;
     pbr::DiffuseCoupling coupling = pbr::DiffuseCoupling::none;  ///< of the target's shader
     bool has_residual = false;                                   ///< a dielectric f0 of any colour
@@ -50,19 +57,24 @@ Layout layout_of(const Sources& sources);
 /// Names of the images that a set may have, before its pictures are known.
 std::vector<std::string> image_names(const TextureParams& params);
 
-/// The material that a texel of a level becomes in the layout.
+/// The material that a texel of a level becomes in the layout; nothing in particular in a specular-gloss one,
+/// which holds the level as it is.
 pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,
                                          const MapLevel& level, std::size_t texel, const Colour& tolerance);
 
 /// Packs texels [begin, end) of a level into an image of the layout, from texel `to` of `packed` on.
-/// materials[i - begin] is that of texel i; `specular_unit` divides dielectric_f0.
+/// materials[i - begin] is that of texel i. dielectric_f0 is packed as it is: its unit is known at the end.
 void pack(const PackedImage& image, const MapLevel& level, std::size_t begin, std::size_t end,
-          const pbr::MetallicMaterial<float>* materials, float specular_unit, std::size_t to,
-          std::vector<float>& packed);
+          const pbr::MetallicMaterial<float>* materials, std::size_t to, std::vector<float>& packed);
 
-/// The material and perceptual roughness of a texel of stored images.
+/// What a texel of a level reflects once it is packed, before codes.
+pbr::Reflected<float> packed_reflection(const Layout& layout, const MapLevel& level, std::size_t texel,
+                                        const pbr::MetallicMaterial<float>& material);
+
+/// What a texel of stored images holds and reflects.
 struct Unpacked {
-    pbr::MetallicMaterial<float> material;
+    pbr::MetallicMaterial<float> material;  ///< nothing in particular of a specular-gloss layout
+    pbr::Reflected<float> reflected;
     float perceptual_roughness;
 };
 Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x,

@@ -10,24 +10,35 @@
 namespace pbrbake {
 namespace texture {
 
-enum class Model { specular_gloss, blinn_phong, phong };
+enum class Model { specular_gloss, blinn_phong, phong, metallic_roughness };
 enum class Coupling { automatic, none, fresnel };
 enum class Norm { energy, n_plus_8, none, over_pi };
 enum class Fit { slope, l2, cumulative, half_width };
-enum class GlossIn { automatic, gloss, specular_alpha, diffuse_alpha, normal_alpha, constant };
+enum class GlossIn {
+    automatic,
+    none,
+    gloss,
+    specular_alpha,
+    diffuse_alpha,
+    normal_alpha,
+    metallic_alpha,
+    constant
+};
 enum class GlossIs { automatic, smoothness, perceptual_roughness, alpha, power, power_log2 };
 enum class Green { automatic, up, down };
 enum class AlphaIs { automatic, opacity, nothing };
 enum class SurfaceIs { automatic, any, dielectric, metal };
 enum class Calibrate { automatic, none, library };
-enum class Packing { gltf, unity, unreal, frostbite, separate };
+enum class Packing { gltf, unity, unreal, frostbite, separate, specular_gloss };
 enum class Wrap { repeat, clamp };
 enum class AlphaMode { automatic, opaque, mask, blend };
-enum class ExtraMap { confidence, difference };
+enum class ExtraMap { confidence, difference, energy };
 
 struct TextureParams {
     std::string source, material;  ///< what filled in the other fields, if anything did
     std::string diffuse, specular, gloss, normal, occlusion, opacity, emissive;  ///< paths; "": none
+    std::string base_color, metallic_roughness, metallic;                        ///< paths
+    std::string rules;                                                           ///< path
     std::string colour_space;
     Model model;
     Coupling diffuse_coupling;
@@ -73,6 +84,10 @@ struct TextureParams {
         visit("occlusion", &TextureParams::occlusion);
         visit("opacity", &TextureParams::opacity);
         visit("emissive", &TextureParams::emissive);
+        visit("base_color", &TextureParams::base_color);
+        visit("metallic_roughness", &TextureParams::metallic_roughness);
+        visit("metallic", &TextureParams::metallic);
+        visit("rules", &TextureParams::rules);
         visit("colour_space", &TextureParams::colour_space);
         visit("model", &TextureParams::model);
         visit("diffuse_coupling", &TextureParams::diffuse_coupling);
@@ -117,7 +132,8 @@ struct TextureParams {
 
 template <>
 struct EnumNames<texture::Model> {
-    static constexpr std::array<std::string_view, 3> names{"specular_gloss", "blinn_phong", "phong"};
+    static constexpr std::array<std::string_view, 4> names{"specular_gloss", "blinn_phong", "phong",
+                                                           "metallic_roughness"};
 };
 template <>
 struct EnumNames<texture::Coupling> {
@@ -133,8 +149,9 @@ struct EnumNames<texture::Fit> {
 };
 template <>
 struct EnumNames<texture::GlossIn> {
-    static constexpr std::array<std::string_view, 6> names{"auto",          "gloss",        "specular_alpha",
-                                                           "diffuse_alpha", "normal_alpha", "constant"};
+    static constexpr std::array<std::string_view, 8> names{"auto",           "none",          "gloss",
+                                                           "specular_alpha", "diffuse_alpha", "normal_alpha",
+                                                           "metallic_alpha", "constant"};
 };
 template <>
 struct EnumNames<texture::GlossIs> {
@@ -159,8 +176,8 @@ struct EnumNames<texture::Calibrate> {
 };
 template <>
 struct EnumNames<texture::Packing> {
-    static constexpr std::array<std::string_view, 5> names{"gltf", "unity", "unreal", "frostbite",
-                                                           "separate"};
+    static constexpr std::array<std::string_view, 6> names{"gltf",      "unity",    "unreal",
+                                                           "frostbite", "separate", "specular_gloss"};
 };
 template <>
 struct EnumNames<texture::Wrap> {
@@ -172,7 +189,7 @@ struct EnumNames<texture::AlphaMode> {
 };
 template <>
 struct EnumNames<texture::ExtraMap> {
-    static constexpr std::array<std::string_view, 2> names{"confidence", "difference"};
+    static constexpr std::array<std::string_view, 3> names{"confidence", "difference", "energy"};
 };
 
 }  // namespace pbrbake

@@ -182,8 +182,24 @@ void fill_specular_gloss(const LegacyMaterial& material, Filling& fill) {
     fill.set("gloss_factor", material.glossiness);
 }
 
-/// A metallic material as the specular-gloss one that looks the same. Of a picture, all or nothing is metal.
+void fill_roughness(const LegacyMaterial& material, Filling& fill) {
+    if (fill.states_gloss()) return;
+    if (material.roughness_map.path.empty())
+        return fill_constant_gloss(1 - material.perceptual_roughness, fill);
+    fill.map("gloss", material.roughness_map);
+    fill.set("gloss_is", "perceptual_roughness");
+}
+
+/// Without a metallic map, as the specular-gloss material that looks the same. Of a picture, all or nothing
+/// is metal.
 void fill_metallic(const LegacyMaterial& material, Filling& fill) {
+    fill_roughness(material, fill);
+    if (!material.metallic_map.path.empty()) {
+        fill.set("model", "metallic_roughness");
+        fill.map("base_color", material.diffuse);
+        fill.map("metallic", material.metallic_map);
+        return fill.set_vector("diffuse_factor", material.diffuse_factor);
+    }
     const bool has_map = !material.diffuse.path.empty();
     double metallic = material.metallic;
     if (has_map && metallic > 0 && metallic < 1) {
@@ -198,7 +214,6 @@ void fill_metallic(const LegacyMaterial& material, Filling& fill) {
     if (has_map && metallic == 1) fill.map("specular", material.diffuse);
     fill.set("specular_factor", specular_json(f0, has_map && metallic == 1));
     fill.set_vector("diffuse_factor", base * (1 - metallic));
-    if (!fill.states_gloss()) fill_constant_gloss(1 - material.perceptual_roughness, fill);
     if (metallic < 1) fill.map("diffuse", material.diffuse);
 }
 

@@ -11,7 +11,7 @@ namespace pbrbake::verify {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kGuide = "The PBR Guide, part 2 (Allegorithmic 2018)";
+constexpr const char* kPainters = "a convention of texture painters";
 
 /// A value of the set: a channel of one of its images.
 struct Channel {
@@ -106,8 +106,8 @@ std::vector<RangeCheck> check_ranges(const fs::path& file, const Json& record) {
         const Luminance base = luminance(set, "base_color");
         const Channel metallic = set.channel("metallic");
         const DielectricF0 dielectric_f0(set);
-        RangeCheck dielectric{"dielectric base colour, sRGB luminance", kGuide, 30, 240};
-        RangeCheck metal{"metal f0, sRGB luminance", kGuide, 180, 255};
+        RangeCheck dielectric{"dielectric base colour, sRGB", kPainters, 30, 240};
+        RangeCheck metal{"metal f0, sRGB", kPainters, 180, 255};
         RangeCheck f0{"dielectric f0, linear", "Fresnel at index 1.33 (water) to 1.79", .02, .08};
         RangeCheck mask{"metallic, of neither", "a surface is a metal or not (Lagarde & de Rousiers 2014)",
                         .1, .9};

@@ -11,7 +11,7 @@ namespace pbrbake::verify {
 
 /// One physical range held against the texels that it speaks of.
 struct RangeCheck {
-    std::string what;    ///< "dielectric base colour, sRGB luminance"
+    std::string what;    ///< "dielectric base colour, sRGB": of luminance, 0 to 255; 30 characters at most
     std::string source;  ///< where the range is from
     double lowest = 0, highest = 0;
     double texels = 0;            ///< share of all texels that it speaks of

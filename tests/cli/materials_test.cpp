@@ -163,6 +163,20 @@ TEST(Materials, OfANameAreItsPictures) {
     EXPECT_EQ(record["pixel"], "unorm8");
 }
 
+TEST(Materials, OfMtlMayBeMetallicByTheTexel) {
+    const Scene scene("m.mtl", "newmtl m\nKd 1 .5 .25\nmap_Kd d.tga\nmap_Pr r.tga\nmap_Pm p.tga");
+    scene.add("d.tga", targa(255, 255, 255));
+    scene.add("r.tga", targa(51, 51, 51));
+    scene.add("p.tga", targa(255, 255, 255));
+    const Outcome outcome = scene.bake("m.gltf");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json record = read_json(scene.path("m.gltf.json"));
+    EXPECT_EQ(record["params"]["model"], "metallic_roughness");
+    EXPECT_EQ(record["set"]["mean_metallic"], 1);
+    EXPECT_EQ(record["set"]["gloss"]["in"], "gloss.r");
+    EXPECT_EQ(record["set"]["gloss"]["is"], "perceptual_roughness");
+}
+
 TEST(Materials, LeaveHeightsOutAndSaySo) {
     const Scene scene("m.mtl", "newmtl m\nmap_Kd d.tga\nbump h.tga");
     scene.add("d.tga", targa(90, 80, 70));

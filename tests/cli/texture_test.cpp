@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "bakers/job/json_text.hpp"
 #include "bakers/job/schema.hpp"
@@ -108,6 +109,83 @@ TEST(TextureCommand, NamesWhatIsMissingOrMalformed) {
     outcome = run_program({"texture", "--diffuse", good, "--gloss-in", "gloss", "-o", out});
     EXPECT_EQ(outcome.code, 4);
     EXPECT_THAT(outcome.err, HasSubstr("gloss_in: found \"gloss\", but that map is absent"));
+}
+
+TEST(TextureCommand, RefusesEmptyFilesAndPicturesWithoutTexels) {
+    const TemporaryFolder folder;
+    const fs::path good = folder.write("d.tga", targa(4, 4, 90, 90, 90, 255));
+    const fs::path out = good.parent_path() / "out.png";
+    for (const fs::path& bad :
+         {folder.write("empty.png", ""), folder.write("none.tga", targa(0, 0, 1, 1, 1, 1))}) {
+        const Outcome outcome = run_program({"texture", "--diffuse", good, "--normal", bad, "-o", out});
+        EXPECT_EQ(outcome.code, 4) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(bad.filename().string()));
+    }
+    const fs::path rules =
+        folder.write("rules.json", R"({"version": 1, "rules": [{"match": "*", "shine": 1}]})");
+    const Outcome outcome = run_program({"texture", "--diffuse", good, "--rules", rules, "-o", out});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("rules.json#/rules/0/shine: found '1'; allowed: match, f0"));
+    EXPECT_FALSE(fs::exists(out));
+}
+
+/// Metallic -> specular-gloss in half EXR -> metallic, by files.
+TEST(TextureCommand, ReadsHalfExrOfItsOwn) {
+    const TemporaryFolder folder;
+    const fs::path base = folder.write("base.tga", targa(8, 8, 200, 120, 40, 255));
+    const fs::path orm = folder.write("orm.tga", targa(8, 8, 255, 128, 255, 255));
+    const fs::path there = base.parent_path() / "there.exr", back = base.parent_path() / "back.png";
+    Outcome outcome =
+        run_program({"texture", "--model", "metallic_roughness", "--base-color", base, "--metallic-roughness",
+                     orm, "--alpha-is", "nothing", "--packing", "specular_gloss", "-o", there});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    expect_valid_sidecar(there.string() + ".json");
+    outcome = run_program({"texture", "--diffuse", there, "--specular",
+                           base.parent_path() / "there_specular_gloss.exr", "--f0-tolerance", "0",
+                           "--gloss-in", "none", "-o", back});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json record = job::parse_json(job::read_text(back.string() + ".json"), "record");
+    EXPECT_NEAR(record["set"]["mean_metallic"].get<double>(), 1, 1e-3);
+    EXPECT_LE(record["certificate"]["headline"]["value"].get<double>(), .01);
+}
+
+TEST(TextureCommand, InspectFlagsWhatNoSurfaceReflects) {
+    const TemporaryFolder folder;
+    const fs::path coal = folder.write("coal_d.tga", targa(8, 8, 8, 8, 8, 0));
+    const fs::path out = coal.parent_path() / "out.png";
+    ASSERT_EQ(run_program({"texture", "--diffuse", coal, "-o", out}).code, 0);
+    const Outcome outcome = run_program({"inspect", out});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("dielectric base colour, sRGB     30 to 240   100.00%  100.00%"));
+    EXPECT_THAT(outcome.out, HasSubstr("outside"));
+    std::istringstream lines(
+        outcome.out.substr(outcome.out.find("physical range"),
+                           outcome.out.find("headline") - outcome.out.find("physical range")));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+    const Json json = job::parse_json(run_program({"inspect", "--json", out}).out, "inspection");
+    EXPECT_EQ(json["ranges"].size(), 4u);
+}
+
+TEST(TextureCommand, TwoHundredSetsTakeTheMemoryOfTwenty) {
+    const TemporaryFolder folder;
+    const fs::path diffuse = folder.write("d.tga", targa(128, 128, 90, 80, 70, 255));
+    folder.write("s.tga", targa(128, 128, 60, 60, 60, 99));
+    Json bakes = Json::array();
+    for (int i = 0; i < 200; ++i)
+        bakes.push_back({{"kind", "texture"},
+                         {"name", "set" + std::to_string(i)},
+                         {"diffuse", "d.tga"},
+                         {"specular", "s.tga"},
+                         {"certify", "none"},
+                         {"format", "dds"}});
+    const fs::path job =
+        folder.write("job.json", Json({{"version", 1}, {"output", "baked"}, {"bakes", bakes}}).dump());
+    const fs::path report = diffuse.parent_path() / "report.json";
+    const Outcome outcome = run_program({"bake", job, "--quiet", "--threads", "2", "--report", report});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json run = job::parse_json(job::read_text(report), "report");
+    const auto peak = [&](std::size_t i) { return run["bakes"][i]["peak_memory_bytes"].get<double>(); };
+    EXPECT_LT(peak(199) - peak(19), 4 << 20);
 }
 
 }  // namespace

@@ -173,6 +173,73 @@ Imf::Compression exr_compression(const std::string& name) {
 
 }  // namespace
 
+Buffer png(int width, int height, int colour_type, const Buffer& samples, const Buffer& palette) {
+    constexpr std::array kChannels{1, 0, 3, 1, 2, 0, 4};
+    const std::size_t texels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                      channels = static_cast<std::size_t>(kChannels[static_cast<std::size_t>(colour_type)]),
+                      depth = samples.size() / (texels * channels), row = samples.size() / height;
+    Buffer out;
+    put_text(out, std::string_view("\x89PNG\r\n\x1A\n", 8));
+    const auto chunk = [&](std::string_view type, const Buffer& data) {
+        Buffer body;
+        put_text(body, type).insert(body.end(), data.begin(), data.end());
+        put_be(out, data.size(), 4).insert(out.end(), body.begin(), body.end());
+        put_be(out, crc32(body.data(), body.size()), 4);
+    };
+    Buffer header;
+    put_be(put_be(header, static_cast<std::uint64_t>(width), 4), static_cast<std::uint64_t>(height), 4);
+    put_bytes(header, {static_cast<int>(8 * depth), colour_type, 0, 0, 0});
+    chunk("IHDR", header);
+    if (!palette.empty()) chunk("PLTE", palette);
+    // zlib of one stored block (RFC 1950, RFC 1951 3.2.4); each row has filter 0.
+    Buffer rows;
+    std::uint32_t a = 1, b = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (i % row == 0) rows.push_back(std::byte{0});
+        rows.push_back(samples[i]);
+    }
+    for (const std::byte value : rows) {
+        a = (a + std::to_integer<std::uint32_t>(value)) % 65521;
+        b = (b + a) % 65521;
+    }
+    Buffer data;
+    put_bytes(data, {0x78, 0x01, 0x01});
+    put_le(put_le(data, rows.size(), 2), ~rows.size() & 0xffff, 2)
+        .insert(data.end(), rows.begin(), rows.end());
+    put_be(data, b << 16 | a, 4);
+    chunk("IDAT", data);
+    chunk("IEND", {});
+    return out;
+}
+
+/// ICC.1:2001-04, 6.1 and 6.5.17: header, one tag, textDescriptionType.
+Buffer icc_profile(std::string_view description) {
+    Buffer tag;
+    put_be(put_text(tag, "desc"), 0, 4);
+    put_text(put_be(tag, description.size() + 1, 4), description);
+    tag.resize(tag.size() + 1 + 4 + 4 + 2 + 1 + 67);
+    Buffer out;
+    put_be(out, 128 + 4 + 12 + tag.size(), 4);
+    put_be(put_text(out, "test"), 0x02400000, 4);
+    put_text(out, "mntrRGB XYZ ");
+    out.resize(36);
+    put_text(out, "acsp").resize(128);
+    put_be(out, 1, 4);
+    put_be(put_be(put_text(out, "desc"), 144, 4), tag.size(), 4);
+    out.insert(out.end(), tag.begin(), tag.end());
+    return out;
+}
+
+Buffer jpeg_with_icc(const Buffer& jpeg, const Buffer& profile) {
+    Buffer out(jpeg.begin(), jpeg.begin() + 2);
+    put_bytes(out, {0xFF, 0xE2});
+    put_be(out, 2 + 14 + profile.size(), 2);
+    put_text(out, std::string_view("ICC_PROFILE\0\1\1", 14));
+    out.insert(out.end(), profile.begin(), profile.end());
+    out.insert(out.end(), jpeg.begin() + 2, jpeg.end());
+    return out;
+}
+
 Buffer png_with(const Buffer& png, std::string_view type, const Buffer& data, bool alone) {
     Buffer out(png.begin(), png.begin() + 8);
     std::size_t at = 8;

@@ -55,6 +55,15 @@ Buffer float_samples(const std::vector<float>& values);
 /// 8 x 8 grey baseline JPEG, every texel 192: one block with a DC of 8 at a quantiser of 64.
 Buffer grey_jpeg();
 
+/// A PNG of 8-bit samples: colour type 0 grey, 2 RGB, 3 indices into `palette` (R G B each), 4 grey and
+/// alpha, 6 RGBA; 16 bits where samples are twice as many, big-endian.
+Buffer png(int width, int height, int colour_type, const Buffer& samples, const Buffer& palette = {});
+
+/// An ICC profile that holds a description and nothing else.
+Buffer icc_profile(std::string_view description);
+/// A JPEG with a profile in an APP2 segment.
+Buffer jpeg_with_icc(const Buffer& jpeg, const Buffer& profile);
+
 /// A PNG with a chunk put before its pixels; `alone`: its other colour chunks are taken out.
 Buffer png_with(const Buffer& png, std::string_view type, const Buffer& data, bool alone = true);
 

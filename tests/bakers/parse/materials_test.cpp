@@ -106,7 +106,8 @@ TEST(Mtl, ReadsThePbrExtension) {
     EXPECT_EQ(m.lobe, MaterialLobe::metallic);
     EXPECT_EQ(m.metallic, 1);
     EXPECT_EQ(m.perceptual_roughness, .3);
-    EXPECT_EQ(codes(mtl("map_Pr r.png").diagnostics), "pbr_map ");
+    EXPECT_EQ(mtl("map_Pr r.png").roughness_map.path, "r.png");
+    EXPECT_EQ(mtl("map_Pm m.png").lobe, MaterialLobe::metallic);
 }
 
 TEST(Mtl, JoinsLinesAndTakesTheFirstOfANameTwice) {

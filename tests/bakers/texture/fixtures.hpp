@@ -1,6 +1,7 @@
 #pragma once
 // Texture sets for tests: sources from numbers, and bakes with the schema's defaults.
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -55,6 +56,41 @@ inline SourceImage source(int width, int height, int channels, int bits,
         io::quantise(images, bits == 8 ? PixelType::unorm8 : PixelType::unorm16);
         image = std::move(images.front());
     }
+    return result;
+}
+
+/// The same picture as read_source hands it over where codes are asked for; of 8 bits.
+inline SourceImage coded(const SourceImage& floats) {
+    SourceImage result = floats;
+    Image& image = result.image;
+    const std::size_t channels = image.channels.size();
+    for (std::size_t code = 0; code < 256; ++code) {
+        std::vector<Image> one{{"", {"R"}, 1, {{1, 1, {0}}}, image.transfer}};
+        const auto value = static_cast<double>(code) / 255;
+        const double linear = image.transfer == Transfer::linear ? value
+                              : value <= .04045                  ? value / 12.92
+                                                                 : std::pow((value + .055) / 1.055, 2.4);
+        one[0].levels[0].texels[0] = static_cast<float>(linear);
+        io::quantise(one, PixelType::unorm8);
+        result.linear[code] = one[0].levels[0].texels[0];
+    }
+    std::vector<float>& texels = image.levels[0].texels;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const auto found = std::ranges::min_element(result.linear, {},
+                                                    [&](float value) { return std::abs(value - texels[i]); });
+        result.codes.push_back(static_cast<std::uint8_t>(i % channels == 3 ? std::lround(texels[i] * 255)
+                                                                           : found - result.linear.begin()));
+    }
+    texels.clear();
+    return result;
+}
+
+/// A text as its bytes.
+inline SourceImage text_source(const std::string& name, const std::string& text) {
+    SourceImage result;
+    result.name = name;
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    result.bytes.assign(bytes, bytes + text.size());
     return result;
 }
 

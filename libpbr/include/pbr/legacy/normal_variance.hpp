@@ -63,10 +63,10 @@ struct SlopeMoments {
     T alpha() const { return std::min(T(1), std::sqrt(alpha2 / weight + T(2) * variance())); }
 };
 
-/// alpha widened by a mean of unit normals whose length is below 1: with the Blinn-Phong exponent n = 2 /
-/// alpha^2
-/// - 2, Toksvig's factor length / (length + n (1 - length)) on n (Toksvig 2005, "Mipmapping normal maps", eq.
-/// 1). length in (0, 1]; lengths above 1 count as 1. alpha in (0, 1]; never below alpha.
+/// alpha widened by a mean of unit normals whose length is below 1: Toksvig's factor
+/// length / (length + n (1 - length)) on the Blinn-Phong exponent n = 2 / alpha^2 - 2 (Toksvig 2005,
+/// "Mipmapping normal maps", eq. 1). length in (0, 1]; lengths above 1 count as 1. alpha in (0, 1]; never
+/// below alpha.
 template <class T>
 T alpha_toksvig(T alpha, T length) {
     const T L = std::min(length, T(1)), a2 = alpha * alpha;

@@ -23,11 +23,11 @@ namespace pbr {
 
 /// The factor N before ks cos^n.
 enum class PhongNorm {
-    energy,    ///< 1 / albedo at normal view: ks is what is reflected there
-    n_plus_8,  ///< (n + 8) / (8 pi), its usual approximation for Blinn-Phong; (n + 2) / (2 pi), exact, for
-               ///< Phong
-    none,      ///< 1: BRDF ks cos^n
-    over_pi,   ///< 1 / pi: under the light that makes the diffuse BRDF kd / pi, as in OBJ's illum 2
+    energy,  ///< 1 / albedo at normal view: ks is what is reflected there
+    /// (n + 8) / (8 pi), its usual approximation for Blinn-Phong; (n + 2) / (2 pi), exact, for Phong
+    n_plus_8,
+    none,     ///< 1: BRDF ks cos^n
+    over_pi,  ///< 1 / pi: under the light that makes the diffuse BRDF kd / pi, as in OBJ's illum 2
 };
 
 /// Which angle the cosine is of.
@@ -44,8 +44,8 @@ T blinn_phong_normal_albedo(T n) {
     return T(8) * std::numbers::pi_v<T> * ((n + low) / (n + T(2))) / (n + T(4));
 }
 
-/// Cosine-weighted mean over views of the albedo of the Blinn-Phong lobe cos^n: 4 pi / (n + 4), see above. n
-/// >= 0: pi at 0, 0 at +Inf. For narrow lobes half the albedo at normal view: towards grazing view the lobe
+/// Cosine-weighted mean over views of the albedo of the Blinn-Phong lobe cos^n: 4 pi / (n + 4), see above.
+/// n >= 0: pi at 0, 0 at +Inf. For narrow lobes half the albedo at normal view: towards grazing view the lobe
 /// goes like the cosine squared. Relative error below 4 ulp.
 template <class T>
 constexpr T blinn_phong_mean_albedo(T n) {
@@ -58,13 +58,14 @@ constexpr T phong_normal_albedo(T n) {
     return T(2) * std::numbers::pi_v<T> / (n + T(2));
 }
 
-/// integral of cos^n over [0, pi/2] (Wallis), sqrt(pi) Gamma((n+1)/2) / (2 Gamma(n/2+1)). n >= 0. Relative
-/// error below 1e-11 (the asymptotic series from n = 24 on, and W_n = W_(n+2) (n + 2) / (n + 1) down to n).
+/// integral of cos^n over [0, pi/2] (Wallis), sqrt(pi) Gamma((n+1)/2) / (2 Gamma(n/2+1)). n >= 0.
+/// Relative error below 1e-11 (the asymptotic series from n = 24 on, and W_n = W_(n+2) (n + 2) / (n + 1) down
+/// to n).
 inline double wallis_integral(double n) {
     double factor = 1;
     for (; n < 24; n += 2) factor *= (n + 2) / (n + 1);
-    // Gamma(x + 1/2) / Gamma(x + 1) = x^(-1/2) (1 - 1/(8x) + ...), at x = n/2, in the better variable n +
-    // 1/2:
+    // Gamma(x + 1/2) / Gamma(x + 1) = x^(-1/2) (1 - 1/(8x) + ...) at x = n/2, in the better variable
+    // n + 1/2:
     const double u = 1 / ((n + .5) * (n + .5));
     const double series = 1 + u * (-1. / 16 + u * (21. / 512 + u * (-671. / 8192 + u * (180323. / 524288))));
     return factor * std::sqrt(std::numbers::pi / (2 * (n + .5))) * series;

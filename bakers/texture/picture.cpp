@@ -1,0 +1,50 @@
+#include "bakers/texture/picture.hpp"
+
+namespace pbrbake::texture {
+namespace {
+
+const std::array<float, 256> kUnit = [] {
+    std::array<float, 256> values{};
+    for (std::size_t code = 0; code < values.size(); ++code)
+        values[code] = static_cast<float>(static_cast<double>(code) / 255);
+    return values;
+}();
+
+}  // namespace
+
+Picture::Picture(const SourceImage& source)
+    : source_(&source),
+      codes_(source.codes.empty() ? nullptr : source.codes.data()),
+      texels_(source.image.levels.front().texels.data()),
+      tables_{&kUnit, &source.linear},
+      width_(source.image.levels.front().width),
+      height_(source.image.levels.front().height),
+      channels_(source.image.channel_count()) {}
+
+bool Picture::varies(int channel) const {
+    const std::size_t texels = static_cast<std::size_t>(width_) * height_;
+    const auto differs = [&](const auto* values) {
+        for (std::size_t i = 1; i < texels; ++i)
+            if (values[i * channels_ + channel] != values[channel]) return true;
+        return false;
+    };
+    return codes_ ? differs(codes_) : differs(texels_);
+}
+
+bool Picture::is_grey() const {
+    if (channels_ < 3) return true;
+    const std::size_t values = static_cast<std::size_t>(width_) * height_ * channels_;
+    const auto is_equal = [&](const auto* texels) {
+        for (std::size_t i = 0; i < values; i += channels_)
+            if (texels[i] != texels[i + 1] || texels[i] != texels[i + 2]) return false;
+        return true;
+    };
+    return codes_ ? is_equal(codes_) : is_equal(texels_);
+}
+
+Picture picture_of(const Inputs& inputs, const std::string& field) {
+    const auto found = inputs.find(field);
+    return found == inputs.end() || found->second.image.levels.empty() ? Picture() : Picture(found->second);
+}
+
+}  // namespace pbrbake::texture

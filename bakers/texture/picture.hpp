@@ -1,0 +1,51 @@
+#pragma once
+// A decoded map of a set, whichever way it is held: floats, or an 8-bit file's codes.
+
+#include <array>
+
+#include "bakers/baker.hpp"
+
+namespace pbrbake::texture {
+
+/// A view into a source; without one it has no channels.
+class Picture {
+  public:
+    Picture() = default;
+    explicit Picture(const SourceImage& source);
+
+    explicit operator bool() const { return source_ != nullptr; }
+    int width() const { return width_; }
+    int height() const { return height_; }
+    int channels() const { return channels_; }
+    int bits() const { return source_->bits; }
+    bool is_srgb() const { return source_->colour_space.find("srgb") != std::string::npos; }
+    bool is_same(const Picture& other) const { return source_ == other.source_; }
+
+    /// `count` channels from `channel` on, of the texel in column x of row y; linear.
+    void read(int x, int y, int channel, int count, float* values) const {
+        const std::size_t at = (static_cast<std::size_t>(y) * width_ + x) * channels_ + channel;
+        for (int c = 0; c < count; ++c)
+            values[c] = codes_ ? (*tables_[channel + c < 3])[codes_[at + c]] : texels_[at + c];
+    }
+    /// The codes of a texel; null where it is floats. `linear` says what those of R G B stand for.
+    const std::uint8_t* codes(int x, int y) const {
+        return codes_ ? codes_ + (static_cast<std::size_t>(y) * width_ + x) * channels_ : nullptr;
+    }
+    float linear(std::uint8_t code) const { return source_->linear[code]; }
+    /// Whether a channel isn't the same everywhere.
+    bool varies(int channel) const;
+    /// Whether R, G and B are the same everywhere, or there is one channel only.
+    bool is_grey() const;
+
+  private:
+    const SourceImage* source_ = nullptr;
+    const std::uint8_t* codes_ = nullptr;  ///< null: floats
+    const float* texels_ = nullptr;
+    std::array<const std::array<float, 256>*, 2> tables_{};  ///< of alpha, and of colours
+    int width_ = 0, height_ = 0, channels_ = 0;
+};
+
+/// The picture of a field; none where the set has no such file.
+Picture picture_of(const Inputs& inputs, const std::string& field);
+
+}  // namespace pbrbake::texture
