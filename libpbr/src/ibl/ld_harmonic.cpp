@@ -193,7 +193,9 @@ HarmonicRule LdHarmonic::prepare(const View& source, int height, double smallest
     for (std::size_t c = 0; c < 3; ++c)
         rest.constant[c] = static_cast<float>(flux[c] / (4 * std::numbers::pi));
 
-    const int wanted = bands_for(smallest_alpha, max_error_), bands = std::min(wanted, most_bands);
+    // The narrowest lobe has the longest peak, the widest the sharpest kink.
+    const int wanted = std::max(bands_for(smallest_alpha, max_error_), bands_for(1, max_error_));
+    const int bands = std::min(wanted, most_bands);
     const double narrowest = smallest_alpha * wanted / bands;  // of the lobes left to harmonics
     const HarmonicRule rule = harmonic_rule(height, bands, narrowest, max_error_);
     spectrum_.emplace(source, rule, each, rest);
