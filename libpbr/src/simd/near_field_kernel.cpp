@@ -197,7 +197,7 @@ NearField::NearField(const EquirectView& source, const glm::dvec3& constant,
     const double poles = 2 * split.kernel().alpha(), margin = poles < texel_angle_ ? texel_angle_ / 2 : 0;
     for (const int order : {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128}) {
         rules_.push_back(points_of(source, order));
-        const double distance = texel_angle_ / (order == 1 ? 0.2 : (order - 1) / 4.0);
+        const double distance = texel_angle_ / (order == 1 ? 0.04 : (order - 1) / 4.0);
         if (distance <= poles) break;
         rules_.back().from2 = std::pow(margin + std::sqrt((distance - poles) * (distance + poles)), 2);
     }

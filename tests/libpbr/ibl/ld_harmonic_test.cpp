@@ -105,6 +105,19 @@ TEST(LdHarmonic, ResolvesNarrowLobes) {
     }
 }
 
+TEST(LdHarmonic, ResolvesNarrowLobesOverManyFineTexels) {
+    const Picture lamps{"lamps", 1024, picture_of(1024, 512, [](const glm::dvec3& d) {
+                            const double x = std::sin(20 * d.x) * std::sin(20 * d.y) * std::sin(20 * d.z);
+                            return glm::dvec3(0.1 + 100 * std::pow(x, 6));
+                        })};
+    const PatchBlocks blocks(lamps.view());
+    for (const double max_error : {1e-3, 1e-4}) {
+        const LdHarmonic harmonic(lamps.view(), 0.0072, max_error, for_each_in_turn);
+        EXPECT_GT(harmonic.level(0.0072, for_each_in_turn).near_radius(), 0);
+        EXPECT_LT(errors(harmonic, blocks, 0.0072).rms, max_error);
+    }
+}
+
 TEST(LdHarmonic, OfACubeMeetsTheErrorToo) {
     std::vector<float> cube = noise_cube(32);
     cube[100] = 1e6f;                    // a sun in the middle of a face
