@@ -11,6 +11,7 @@
 #include <pugixml.hpp>
 #include <set>
 
+#include "bakers/parse/collada_document.hpp"
 #include "bakers/parse/light_formats.hpp"
 #include "bakers/parse/scene_transform.hpp"
 #include "bakers/parse/text.hpp"
@@ -36,21 +37,9 @@ bool is_since_280(std::string_view version) {
     return major > 2 || (major == 2 && number() >= 80);
 }
 
-class Collada {
+class Collada : ColladaDocument {
   public:
-    Collada(std::string_view text, const std::string& file) : file_(file) {
-        for (std::size_t i = text.find('\n'); i != text.npos; i = text.find('\n', i + 1)) ends_.push_back(i);
-        const pugi::xml_parse_result result =
-            document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
-        if (!result)
-            throw malformed(file, line_at(static_cast<std::size_t>(result.offset)),
-                            std::string("is no XML: ") + result.description());
-        root_ = document_.child("COLLADA");
-        if (!root_)
-            throw malformed(file, 0,
-                            "found the element " + parse::quoted(document_.document_element().name()) +
-                                "; allowed: COLLADA");
-    }
+    Collada(std::string_view text, const std::string& file) : ColladaDocument(text, file) {}
 
     LightFile read() {
         LightFile lights;
@@ -86,13 +75,6 @@ class Collada {
     }
 
   private:
-    int line_at(std::size_t offset) const {
-        return 1 + static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin());
-    }
-    int line_of(const pugi::xml_node& node) const {
-        return node.offset_debug() < 0 ? 0 : line_at(static_cast<std::size_t>(node.offset_debug()));
-    }
-
     std::vector<double> numbers(const pugi::xml_node& node, std::size_t least, std::size_t most) const {
         std::vector<double> list;
         std::string_view rest = node.child_value();
@@ -233,10 +215,6 @@ class Collada {
         for (const pugi::xml_node child : node.children("node")) walk(child, world, depth + 1, lights);
     }
 
-    const std::string& file_;
-    std::vector<std::size_t> ends_;  ///< of lines
-    pugi::xml_document document_;
-    pugi::xml_node root_;
     std::map<std::string, pugi::xml_node> lights_;
     std::set<std::string> used_;
     bool is_in_watts_ = false;

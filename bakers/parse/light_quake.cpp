@@ -142,9 +142,8 @@ LightFile parse_quake_lights(const std::vector<MapEntity>& entities, const std::
     LightFile result;
     result.format = "Quake map";
     result.meaning =
-        "light 247.3 lights a white surface to white (light.exe's 1/2, GLQuake's 264/128); a unit is taken "
-        "as "
-        "1/32 m";
+        "light 247.3 lights a white surface to white (light.exe's 1/2, GLQuake's 264/128); a unit is "
+        "taken as 1/32 m";
     result.unit_m = kUnit_m;
     result.up = UpAxis::z;
     const Targets targets(entities, file);

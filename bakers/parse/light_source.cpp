@@ -136,8 +136,8 @@ LightFile parse_source_lights(const std::vector<MapEntity>& entities, const std:
     LightFile result;
     result.format = "Source map";
     result.meaning =
-        "_light r g b 255 at 100 units lights a white surface to white (vrad); a unit is 1/16 foot, 0.01905 "
-        "m";
+        "_light r g b 255 at 100 units lights a white surface to white (vrad); a unit is 1/16 "
+        "foot, 0.01905 m";
     result.unit_m = kUnit_m;
     result.up = UpAxis::z;
     const Targets targets(entities, file);

@@ -5,6 +5,7 @@
 #include <map>
 #include <pugixml.hpp>
 
+#include "bakers/parse/collada_document.hpp"
 #include "bakers/parse/light_formats.hpp"
 #include "bakers/parse/materials.hpp"
 #include "bakers/parse/text.hpp"
@@ -17,20 +18,9 @@ constexpr double kLargest = 1e4, kLargestExponent = 1e6;
 /// The id that "#id" refers to.
 std::string reference(std::string_view url) { return std::string(url.substr(url.starts_with('#') ? 1 : 0)); }
 
-class Collada {
+class Collada : ColladaDocument {
   public:
-    Collada(std::string_view text, const std::string& file) : file_(file) {
-        for (std::size_t i = text.find('\n'); i != text.npos; i = text.find('\n', i + 1)) ends_.push_back(i);
-        const pugi::xml_parse_result result =
-            document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
-        if (!result)
-            throw malformed(file, line_at(static_cast<std::size_t>(result.offset)),
-                            std::string("is no XML: ") + result.description());
-        root_ = document_.child("COLLADA");
-        if (!root_)
-            throw malformed(file, 0,
-                            "found the element " + parse::quoted(document_.document_element().name()) +
-                                "; allowed: COLLADA");
+    Collada(std::string_view text, const std::string& file) : ColladaDocument(text, file) {
         for (const pugi::xml_node image : root_.child("library_images").children("image"))
             images_.emplace(image.attribute("id").value(), image);
     }
@@ -56,13 +46,6 @@ class Collada {
     }
 
   private:
-    int line_at(std::size_t offset) const {
-        return 1 + static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin());
-    }
-    int line_of(const pugi::xml_node& node) const {
-        return node.offset_debug() < 0 ? 0 : line_at(static_cast<std::size_t>(node.offset_debug()));
-    }
-
     void add(const pugi::xml_node& named, const pugi::xml_node& effect, MaterialFile& result) {
         if (result.materials.size() == kMostMaterials)
             throw malformed(file_, line_of(named), "is past 100000 materials");
@@ -213,10 +196,7 @@ class Collada {
         return {path_of_uri(uri), std::string("<").append(said).append(">"), line_of(from), {}};
     }
 
-    const std::string& file_;
-    std::vector<std::size_t> ends_;  ///< of lines
-    pugi::xml_document document_;
-    pugi::xml_node root_, profile_;
+    pugi::xml_node profile_;
     std::map<std::string, pugi::xml_node> images_;
 };
 
