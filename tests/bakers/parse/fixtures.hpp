@@ -1,5 +1,7 @@
 #pragma once
-// Photometric files for tests: written here, or found in the folder of real assets.
+// Files for tests: written here, or found in the folder of real assets.
+
+#include <gtest/gtest.h>
 
 #include <cstddef>
 #include <cstdlib>
@@ -11,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bakers/parse/lights.hpp"
 #include "bakers/parse/photometry.hpp"
 
 namespace pbrbake::parse::test {
@@ -29,6 +32,17 @@ inline std::string error_of(const std::string& text) {
         parse(text);
     } catch (const Error& error) {
         return std::to_string(static_cast<int>(error.code())) + " " + error.what();
+    }
+    return "";
+}
+
+/// What a file of lights is refused with as unreadable input, "" if it is read.
+inline std::string refusal_of_lights(const std::string& text, const std::string& name) {
+    try {
+        parse_lights(bytes_of(text), name);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::unreadable_input) << error.what();
+        return error.what();
     }
     return "";
 }

@@ -21,16 +21,6 @@ LightFile read(const std::string& text, const std::string& name) {
     return parse_lights(bytes_of(text), name);
 }
 
-std::string refusal(const std::string& text, const std::string& name) {
-    try {
-        read(text, name);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::unreadable_input) << error.what();
-        return error.what();
-    }
-    return "";
-}
-
 const char* const kQuake = R"(// a map
 {
 "classname" "worldspawn"
@@ -233,14 +223,15 @@ TEST(SourceLights, SkyWithoutAnAmbientHasHalfOfItsSun) {
 }
 
 TEST(MapEntities, SayWhereTheyBreak) {
-    EXPECT_THAT(refusal("{\n\"classname\" \"light\"\n", "a.map"), HasSubstr("a.map:1: opens a brace"));
-    EXPECT_THAT(refusal("{\n\"classname\" \"light\n}", "a.map"), HasSubstr("a.map:2: has a quote"));
-    EXPECT_THAT(refusal("{\n\"classname\"\n}", "a.map"),
+    EXPECT_THAT(refusal_of_lights("{\n\"classname\" \"light\"\n", "a.map"),
+                HasSubstr("a.map:1: opens a brace"));
+    EXPECT_THAT(refusal_of_lights("{\n\"classname\" \"light\n}", "a.map"), HasSubstr("a.map:2: has a quote"));
+    EXPECT_THAT(refusal_of_lights("{\n\"classname\"\n}", "a.map"),
                 HasSubstr("where the value of 'classname' should be"));
-    EXPECT_THAT(refusal("}", "a.map"), HasSubstr("that none opened"));
-    EXPECT_THAT(refusal("{\n\"classname\" \"light\"\n\"light\" \"bright\"\n}", "a.map"),
+    EXPECT_THAT(refusal_of_lights("}", "a.map"), HasSubstr("that none opened"));
+    EXPECT_THAT(refusal_of_lights("{\n\"classname\" \"light\"\n\"light\" \"bright\"\n}", "a.map"),
                 HasSubstr("found 'bright' as 'light'"));
-    EXPECT_THAT(refusal(std::string(100, '{'), "a.map"), HasSubstr("deeper than 64"));
+    EXPECT_THAT(refusal_of_lights(std::string(100, '{'), "a.map"), HasSubstr("deeper than 64"));
 }
 
 }  // namespace

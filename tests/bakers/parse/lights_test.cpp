@@ -22,16 +22,6 @@ LightFile read(const std::string& text, const std::string& name, ThreeLights thr
     return parse_lights(bytes_of(text), name, {three, GltfUnits::standard});
 }
 
-std::string refusal(const std::string& text, const std::string& name) {
-    try {
-        read(text, name);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::unreadable_input) << error.what();
-        return error.what();
-    }
-    return "";
-}
-
 std::string collada(const std::string& light, const std::string& nodes, const std::string& asset = "") {
     return "<?xml version=\"1.0\"?>\n<COLLADA "
            "xmlns=\"http://www.collada.org/2005/11/COLLADASchema\">\n<asset>" +
@@ -111,14 +101,15 @@ TEST(ColladaLights, BlendersLightsAreWattsSince280) {
 }
 
 TEST(ColladaLights, SayWhereTheyBreak) {
-    EXPECT_THAT(refusal("<COLLADA>\n<asset>", "a.dae"), HasSubstr("is no XML"));
-    EXPECT_THAT(refusal("<svg/>", "a.dae"), HasSubstr("found the element 'svg'; allowed: COLLADA"));
-    EXPECT_THAT(refusal(collada("<point><color>1 one 1</color></point>", ""), "a.dae"),
+    EXPECT_THAT(refusal_of_lights("<COLLADA>\n<asset>", "a.dae"), HasSubstr("is no XML"));
+    EXPECT_THAT(refusal_of_lights("<svg/>", "a.dae"), HasSubstr("found the element 'svg'; allowed: COLLADA"));
+    EXPECT_THAT(refusal_of_lights(collada("<point><color>1 one 1</color></point>", ""), "a.dae"),
                 HasSubstr("found 'one' in <color>"));
-    EXPECT_THAT(refusal(collada("<point/>", "<node><instance_light url=\"#M\"/></node>"), "a.dae"),
+    EXPECT_THAT(refusal_of_lights(collada("<point/>", "<node><instance_light url=\"#M\"/></node>"), "a.dae"),
                 HasSubstr("places the light 'M', which isn't there"));
-    EXPECT_THAT(refusal(collada("<laser/>", ""), "a.dae"), HasSubstr("allowed: point, spot"));
-    EXPECT_THAT(refusal(collada("<point/>", "", "<unit meter=\"0\"/>"), "a.dae"), HasSubstr("above 0"));
+    EXPECT_THAT(refusal_of_lights(collada("<laser/>", ""), "a.dae"), HasSubstr("allowed: point, spot"));
+    EXPECT_THAT(refusal_of_lights(collada("<point/>", "", "<unit meter=\"0\"/>"), "a.dae"),
+                HasSubstr("above 0"));
 }
 
 TEST(ThreeLightsFile, LegacyAndPhysicalFadeApart) {
@@ -234,12 +225,13 @@ TEST(OpenGexLights, OnlyRampsFadeByAngle) {
 }
 
 TEST(OpenGexLights, SayWhereTheyBreak) {
-    EXPECT_THAT(refusal("LightObject (type = \"point\") {\n", "a.ogex"), HasSubstr("a.ogex:2: ends where"));
-    EXPECT_THAT(refusal("LightObject (type = \"laser\") {}", "a.ogex"),
+    EXPECT_THAT(refusal_of_lights("LightObject (type = \"point\") {\n", "a.ogex"),
+                HasSubstr("a.ogex:2: ends where"));
+    EXPECT_THAT(refusal_of_lights("LightObject (type = \"laser\") {}", "a.ogex"),
                 HasSubstr("allowed: infinite, point, spot"));
-    EXPECT_THAT(
-        refusal("LightObject (type = \"point\") {Param (attrib = \"intensity\") {float {x}}}", "a.ogex"),
-        HasSubstr("found 'x'"));
+    EXPECT_THAT(refusal_of_lights(
+                    "LightObject (type = \"point\") {Param (attrib = \"intensity\") {float {x}}}", "a.ogex"),
+                HasSubstr("found 'x'"));
 }
 
 TEST(Ac3dLights, StandInTheTreeOfObjects) {
@@ -251,7 +243,7 @@ TEST(Ac3dLights, StandInTheTreeOfObjects) {
     ASSERT_EQ(file.lights.size(), 1u);
     EXPECT_EQ(file.lights[0].name, "lamp");
     EXPECT_EQ(file.lights[0].position, glm::dvec3(11, 2, 3));
-    EXPECT_THAT(refusal("AC3Db\nOBJECT world\nkids 2\nOBJECT light\nkids 0\n", "a.ac"),
+    EXPECT_THAT(refusal_of_lights("AC3Db\nOBJECT world\nkids 2\nOBJECT light\nkids 0\n", "a.ac"),
                 HasSubstr("truncated"));
 }
 
@@ -263,47 +255,52 @@ TEST(CsvLights, AreRowsOfNamedColumns) {
     EXPECT_EQ(file.lights[0].name, "a, b");
     EXPECT_NEAR(pbr::falloff_at(file.lights[0].falloff, 5), .5, 1e-12);
     EXPECT_NEAR(file.lights[1].spot->outer_rad, 45 * kDegree, 1e-12);
-    EXPECT_THAT(refusal("name,colr\na,b\n", "a.csv"),
+    EXPECT_THAT(refusal_of_lights("name,colr\na,b\n", "a.csv"),
                 HasSubstr("a.csv:1: found the column 'colr'; allowed: name"));
-    EXPECT_THAT(refusal("name,type\na\n", "a.csv"), HasSubstr("a.csv:2: found 1 cells; allowed: 2"));
-    EXPECT_THAT(refusal("name,range\na,wide\n", "a.csv"), HasSubstr("found 'wide' as range"));
+    EXPECT_THAT(refusal_of_lights("name,type\na\n", "a.csv"),
+                HasSubstr("a.csv:2: found 1 cells; allowed: 2"));
+    EXPECT_THAT(refusal_of_lights("name,range\na,wide\n", "a.csv"), HasSubstr("found 'wide' as range"));
 }
 
 TEST(PlainLights, SayWhereTheyBreak) {
-    EXPECT_THAT(refusal("{\"lights\": [{\"intensity\": \"much\"}]}", "a.json"),
+    EXPECT_THAT(refusal_of_lights("{\"lights\": [{\"intensity\": \"much\"}]}", "a.json"),
                 HasSubstr("a.json#/lights/0/intensity: found '\"much\"'; allowed: a finite number"));
-    EXPECT_THAT(refusal("{\"lights\": [{\"falloff\": \"cubic\"}]}", "a.json"),
+    EXPECT_THAT(refusal_of_lights("{\"lights\": [{\"falloff\": \"cubic\"}]}", "a.json"),
                 HasSubstr("allowed: constant, linear"));
-    EXPECT_THAT(refusal("{\"lights\": [{\"falloff\": \"linear\"}]}", "a.json"),
+    EXPECT_THAT(refusal_of_lights("{\"lights\": [{\"falloff\": \"linear\"}]}", "a.json"),
                 HasSubstr("the ramp is dark"));
-    EXPECT_THAT(refusal("{\"lights\": 3}", "a.json"), HasSubstr("a.json#/lights: found '3'"));
-    EXPECT_THAT(refusal("{\"lights\": [,]}", "a.json"), HasSubstr("a.json:1:"));
-    EXPECT_THAT(refusal("{\"lamps\": []}", "a.json"), HasSubstr("without \"asset\""));
-    EXPECT_THAT(refusal("{\"unit\": \"furlong\", \"lights\": []}", "a.json"),
+    EXPECT_THAT(refusal_of_lights("{\"lights\": 3}", "a.json"), HasSubstr("a.json#/lights: found '3'"));
+    EXPECT_THAT(refusal_of_lights("{\"lights\": [,]}", "a.json"), HasSubstr("a.json:1:"));
+    EXPECT_THAT(refusal_of_lights("{\"lamps\": []}", "a.json"), HasSubstr("without \"asset\""));
+    EXPECT_THAT(refusal_of_lights("{\"unit\": \"furlong\", \"lights\": []}", "a.json"),
                 HasSubstr("allowed: relative, cd"));
-    EXPECT_THAT(refusal("[1]", "a.json"), HasSubstr("no object"));
+    EXPECT_THAT(refusal_of_lights("[1]", "a.json"), HasSubstr("no object"));
 }
 
 TEST(GltfLights, SayWhereTheyBreak) {
     const std::string head =
         R"({"asset": {"version": "2.0"}, "extensions": {"KHR_lights_punctual": {"lights": [)";
-    EXPECT_THAT(refusal(head + R"({"type": "laser"}]}}})", "a.gltf"),
+    EXPECT_THAT(refusal_of_lights(head + R"({"type": "laser"}]}}})", "a.gltf"),
                 HasSubstr("/lights/0/type: found '\"laser\"'"));
-    EXPECT_THAT(refusal(head + R"({"type": "spot"}]}}})", "a.gltf"), HasSubstr("which a spot needs"));
-    EXPECT_THAT(refusal(head + R"(]}}, "nodes": [{"children": [0]}], "scenes": [{"nodes": [0]}]})", "a.gltf"),
+    EXPECT_THAT(refusal_of_lights(head + R"({"type": "spot"}]}}})", "a.gltf"),
+                HasSubstr("which a spot needs"));
+    EXPECT_THAT(refusal_of_lights(head + R"(]}}, "nodes": [{"children": [0]}], "scenes": [{"nodes": [0]}]})",
+                                  "a.gltf"),
                 HasSubstr("reached twice"));
     EXPECT_THAT(
-        refusal(head + R"(]}}, "nodes": [{"extensions": {"KHR_lights_punctual": {"light": 3}}}]})", "a.gltf"),
+        refusal_of_lights(head + R"(]}}, "nodes": [{"extensions": {"KHR_lights_punctual": {"light": 3}}}]})",
+                          "a.gltf"),
         HasSubstr("below 0"));
     using namespace std::string_literals;
-    EXPECT_THAT(refusal("glTF\2\0\0\0\x20\0\0\0\x40\0\0\0JSON{}"s, "a.glb"), HasSubstr("claims 64 bytes"));
+    EXPECT_THAT(refusal_of_lights("glTF\2\0\0\0\x20\0\0\0\x40\0\0\0JSON{}"s, "a.glb"),
+                HasSubstr("claims 64 bytes"));
 }
 
 TEST(Lights, RefuseWhatIsNoFormatKnown) {
-    EXPECT_THAT(refusal("hello\n", "a.txt"), HasSubstr("as no format known does"));
-    EXPECT_THAT(refusal("", "a.txt"), HasSubstr("is empty"));
-    EXPECT_THAT(refusal("  \n", "a.txt"), HasSubstr("nothing but blanks"));
-    EXPECT_THAT(refusal("Kaydara FBX Binary", "a.fbx"), HasSubstr("FBX"));
+    EXPECT_THAT(refusal_of_lights("hello\n", "a.txt"), HasSubstr("as no format known does"));
+    EXPECT_THAT(refusal_of_lights("", "a.txt"), HasSubstr("is empty"));
+    EXPECT_THAT(refusal_of_lights("  \n", "a.txt"), HasSubstr("nothing but blanks"));
+    EXPECT_THAT(refusal_of_lights("Kaydara FBX Binary", "a.fbx"), HasSubstr("FBX"));
 }
 
 TEST(Lights, ReadTheRealFiles) {
