@@ -5,8 +5,10 @@
 #define HWY_TARGET_INCLUDE "src/simd/patch_kernel.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
+#include <hwy/cache_control.h>
 
 #include <algorithm>
+#include <array>
 
 #include "src/simd/patch_kernel.hpp"
 
@@ -148,6 +150,93 @@ void point_moments(const PatchPoints& points, const glm::dvec3& centre, PatchMom
         }
 }
 
+constexpr std::size_t kMostValues = 3 * kMostLatLongWidth, kPastValues = 4;
+using RowSums = double[kRowIntegrals][kMostValues + kPastValues];
+
+/// Sums over a block's rows, a channel of a column each. The picture's values lie as the sums do.
+HWY_INLINE void sum_rows(const LatLongBlock& block, RowSums& sums) {
+    const hn::CappedTag<double, 8> d;
+    const hn::Rebind<float, decltype(d)> to_float;
+    using V = hn::Vec<decltype(d)>;
+    const std::size_t lanes = hn::Lanes(d), count = 3 * static_cast<std::size_t>(block.width);
+    for (int y = 0; y < block.height; ++y)
+        for (std::size_t i = 0; i < count; i += 16) hwy::Prefetch(block.rgb + y * block.stride + i);
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        V own[kRowIntegrals];
+        for (V& sum : own) sum = hn::Zero(d);
+        const float* values = block.rgb + i;
+        const double* factors = block.rows;
+        for (int y = 0; y < block.height; ++y, values += block.stride, factors += kRowIntegrals) {
+            const V value = hn::PromoteTo(d, hn::LoadU(to_float, values));
+            for (std::size_t k = 0; k < kRowIntegrals; ++k)
+                own[k] = hn::Add(own[k], hn::Mul(value, hn::Set(d, factors[k])));
+        }
+        for (std::size_t k = 0; k < kRowIntegrals; ++k) hn::StoreU(own[k], d, sums[k] + i);
+    }
+    for (; i < count; ++i)
+        for (std::size_t k = 0; k < kRowIntegrals; ++k) {
+            sums[k][i] = 0;
+            for (std::size_t y = 0; y < static_cast<std::size_t>(block.height); ++y)
+                sums[k][i] +=
+                    static_cast<double>(block.rgb[y * block.stride + i]) * block.rows[y * kRowIntegrals + k];
+        }
+    for (auto& of_power : sums) std::fill_n(of_power + count, kPastValues, 0.0);
+}
+
+/// Places of sin^i cos^j in the order of LatLongBlock.
+constexpr std::size_t place_of(int i, int j) {
+    return static_cast<std::size_t>(i * 4 - i * (i - 1) / 2 + j);
+}
+
+/// x^a y^b z^c is sin^(a+c) cos^b of the colatitude times sin^a cos^c of the longitude.
+struct Factors {
+    std::size_t row, column;
+};
+constexpr std::array<Factors, kMonomials.size()> factors_of_monomials() {
+    std::array<Factors, kMonomials.size()> factors{};
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+        const Monomial& m = kMonomials[k];
+        factors[k] = {place_of(m.a + m.c, m.b), place_of(m.a, m.c)};
+    }
+    return factors;
+}
+constexpr std::array<Factors, kMonomials.size()> kFactors = factors_of_monomials();
+
+void block_moments(const LatLongBlock& block, PatchMoments& moments) {
+    RowSums sums;
+    sum_rows(block, sums);
+    double weights[kRowIntegrals] = {};
+    for (std::size_t y = 0; y < static_cast<std::size_t>(block.height); ++y)
+        for (std::size_t k = 0; k < kRowIntegrals; ++k) weights[k] += block.rows[y * kRowIntegrals + k];
+    // Lanes hold r, g, b and the weights.
+    const hn::CappedTag<double, 4> d;
+    using V = hn::Vec<decltype(d)>;
+    const std::size_t lanes = hn::Lanes(d), width = static_cast<std::size_t>(block.width);
+    HWY_ALIGN double of_column[kColumnMeans][kMostLatLongWidth][4];
+    for (std::size_t c = 0; c < 4; c += lanes) {
+        const auto is_radiance = hn::FirstN(d, 3 - c);
+        for (std::size_t x = 0; x < width; ++x) {
+            V own[kColumnMeans];
+            for (std::size_t k = 0; k < kRowIntegrals; ++k)
+                own[k] =
+                    hn::IfThenElse(is_radiance, hn::LoadU(d, sums[k] + 3 * x + c), hn::Set(d, weights[k]));
+            own[place_of(2, 0)] = hn::Sub(own[place_of(0, 0)], own[place_of(0, 2)]);
+            own[place_of(2, 1)] = hn::Sub(own[place_of(0, 1)], own[place_of(0, 3)]);
+            own[place_of(3, 0)] = hn::Sub(own[place_of(1, 0)], own[place_of(1, 2)]);
+            for (std::size_t k = 0; k < kColumnMeans; ++k) hn::Store(own[k], d, of_column[k][x] + c);
+        }
+        for (std::size_t k = 0; k < kMonomials.size(); ++k) {
+            const auto& values = of_column[kFactors[k].row];
+            const double* means = block.columns + kFactors[k].column;
+            V sum = hn::Zero(d);
+            for (std::size_t x = 0; x < width; ++x)
+                sum = hn::Add(sum, hn::Mul(hn::Set(d, means[x * kColumnMeans]), hn::Load(d, values[x] + c)));
+            hn::StoreU(sum, d, moments[k].data() + c);
+        }
+    }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pbr
 HWY_AFTER_NAMESPACE();
@@ -157,6 +246,7 @@ namespace pbr {
 
 HWY_EXPORT(lat_long_points);
 HWY_EXPORT(point_moments);
+HWY_EXPORT(block_moments);
 
 void fill_lat_long_points(const LatLongPatch& patch, std::size_t at, PatchPoints& points) {
     HWY_DYNAMIC_DISPATCH(lat_long_points)(patch, at, points);
@@ -165,6 +255,12 @@ void fill_lat_long_points(const LatLongPatch& patch, std::size_t at, PatchPoints
 PatchMoments moments_of_points(const PatchPoints& points, const glm::dvec3& centre) {
     PatchMoments moments{};
     HWY_DYNAMIC_DISPATCH(point_moments)(points, centre, moments);
+    return moments;
+}
+
+PatchMoments moments_of_block(const LatLongBlock& block) {
+    PatchMoments moments{};
+    HWY_DYNAMIC_DISPATCH(block_moments)(block, moments);
     return moments;
 }
 

@@ -38,4 +38,22 @@ using PatchMoments = std::array<std::array<double, 4>, kMonomials.size()>;
 /// Moments of points about a centre. Bits do not depend on the vector width.
 PatchMoments moments_of_points(const PatchPoints& points, const glm::dvec3& centre);
 
+/// Powers sin^i cos^j of colatitudes that others of i + j <= 3 follow from, as sin^2 = 1 - cos^2: i up to 1.
+/// And all of longitudes. Each in the order of j within that of i.
+inline constexpr std::size_t kRowIntegrals = 7, kColumnMeans = 10;
+
+/// A block of an equirect's texels, kMostLatLongWidth wide at most, and what its rows and columns know of
+/// their directions (sin b sin a, cos b, sin b cos a): kRowIntegrals of colatitudes b a row, over a texel's
+/// solid angle, and kColumnMeans of longitudes a a column.
+struct LatLongBlock {
+    const float* rgb;    ///< first texel
+    std::size_t stride;  ///< floats from a row of texels to the next
+    int width, height;   ///< texels
+    const double *rows, *columns;
+};
+
+/// Moments of a block in the picture's own frame, about the sphere's centre: each row's texels take the same
+/// factors, and each column's sums. Bits do not depend on the vector width.
+PatchMoments moments_of_block(const LatLongBlock& block);
+
 }  // namespace pbr

@@ -72,13 +72,6 @@ class MomentTree {
     glm::dvec3 mean() const { return mean_; }
 
   private:
-    struct Place {
-        int face, x, y;
-    };
-    std::array<double, kMonomials.size()> texel_spread(int block, PatchPoints& points) const;
-    void fill_leaf(int block, const Place& place, PatchPoints& points);
-    void merge(int level, const Place& place);
-    MomentCone cone(const glm::dvec3& centre, double solid_angle, int level, const Place& place) const;
     void set_brightness();
 
     const PatchBlocks* blocks_;

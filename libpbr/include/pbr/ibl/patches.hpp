@@ -49,6 +49,9 @@ class PatchBlocks {
     PatchBlocks(const EquirectView& source, std::span<const CubeTexel> texels);
     PatchBlocks(const CubeView& source, std::span<const CubeTexel> texels);
 
+    /// The picture, if it is an equirect; else its `rgb` is null.
+    const EquirectView& equirect() const { return equirect_; }
+
     /// How many blocks.
     int count() const { return static_cast<int>(blocks_.size()); }
     /// Of block 0 … count() - 1.
