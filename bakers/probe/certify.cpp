@@ -33,6 +33,9 @@ constexpr int kTile = 4, kSmallestTiled = 64;
 /// Texels of a level that are checked: sampling errs by noise, and takes longer.
 constexpr int kChecked = 8, kCheckedOfSamples = 48;
 
+/// Level 0 is checked in strips of a row's texels, and as many of them.
+constexpr int kStrip = 16, kStrips = 16;
+
 /// What distant parts may move the exact sum by at most, of the error that was asked for. What they do is a
 /// hundredth of that.
 constexpr double kFarFieldShare = 1.0 / 3;
@@ -49,15 +52,50 @@ struct Tile {
     int texels() const { return width * height; }
 };
 
-/// Tiles side by side that cover all faces, those at the ends cut short.
-std::vector<Tile> all_tiles(int size, int side) {
-    std::vector<Tile> tiles;
-    for (int face = 0; face < 6; ++face)
-        for (int top = 0; top < size; top += side)
-            for (int left = 0; left < size; left += side)
-                tiles.push_back({face, left, top, std::min(side, size - left), std::min(side, size - top)});
-    return tiles;
-}
+/// Tiles side by side that cover all faces, those at the ends cut short: by faces, rows and columns.
+class Tiling {
+  public:
+    Tiling(int size, int width, int height)
+        : size_(size),
+          width_(width),
+          height_(height),
+          columns_((size + width - 1) / width),
+          rows_((size + height - 1) / height) {}
+
+    std::size_t count() const { return static_cast<std::size_t>(6) * rows_ * columns_; }
+
+    Tile operator[](std::size_t index) const {
+        const int i = static_cast<int>(index), left = i % columns_ * width_,
+                  top = i / columns_ % rows_ * height_;
+        return {i / columns_ / rows_, left, top, std::min(width_, size_ - left),
+                std::min(height_, size_ - top)};
+    }
+
+    /// Sums of a level's squared values over each tile, by which they are chosen.
+    std::vector<double> brightness(const Image& image, int level) const {
+        std::vector<double> sums(count());
+        for (int row = 0; row < 6 * size_; ++row) {
+            const int face = row / size_, y = row % size_;
+            const float* values = image.texel(level, face, y, 0);
+            double* sum = &sums[static_cast<std::size_t>(face * rows_ + y / height_) * columns_];
+            for (int left = 0; left < size_; left += width_)
+                *sum++ += sum_of_squares(values + 3 * left, std::min(width_, size_ - left));
+        }
+        return sums;
+    }
+
+  private:
+    /// Of texels; the channels' sums don't wait for each other.
+    static double sum_of_squares(const float* rgb, int count) {
+        std::array<double, 3> sums{};
+        for (int x = 0; x < count; ++x)
+            for (std::size_t c = 0; c < 3; ++c, ++rgb)
+                sums[c] += static_cast<double>(*rgb) * static_cast<double>(*rgb);
+        return sums[0] + sums[1] + sums[2];
+    }
+
+    int size_, width_, height_, columns_, rows_;
+};
 
 struct TileError {
     double squared = 0;  ///< sum over texels and channels of (stored - true)^2
@@ -137,23 +175,6 @@ double energy_of_level(const Product& product, int level) {
     return flux.value() / product.scale;
 }
 
-/// Sums of squared stored values, by which tiles are chosen.
-std::vector<double> brightness_of_tiles(const Image& image, int level, std::span<const Tile> tiles) {
-    std::vector<double> brightness;
-    brightness.reserve(tiles.size());
-    for (const Tile& tile : tiles) {
-        std::array<double, 3> sums{};  // they don't wait for each other
-        for (int y = tile.top; y < tile.top + tile.height; ++y) {
-            const float* values = image.texel(level, tile.face, y, tile.left);
-            for (int x = 0; x < tile.width; ++x)
-                for (std::size_t c = 0; c < 3; ++c, ++values)
-                    sums[c] += static_cast<double>(*values) * static_cast<double>(*values);
-        }
-        brightness.push_back(sums[0] + sums[1] + sums[2]);
-    }
-    return brightness;
-}
-
 /// Root mean square over `values` numbers, over a mean, from a total of squares. The interval is widened by
 /// `slack`.
 Figure relative_rmse(const TotalEstimate& squared, double values, double mean, double slack, bool all,
@@ -171,27 +192,24 @@ Figure relative_rmse(const TotalEstimate& squared, double values, double mean, d
     return figure;
 }
 
-/// Level 0 against the resampled source, on all rows, or on the brightest and some chosen by hash: what
-/// storage changed.
+/// Level 0 against the resampled source, on all texels, or on strips of rows, the brightest and some chosen
+/// by hash: what storage changed.
 Figure mirror_figure(const ProbeParams& params, const Environment& environment, const Product& product,
                      Context& context) {
-    constexpr int kRows = 8;
-    const int size = params.size, rows = 6 * size;
-    std::vector<double> brightness;
-    for (int row = 0; row < rows; ++row) {
-        const Tile tile{row / size, 0, row % size, size, 1};
-        brightness.push_back(brightness_of_tiles(product.images[0], 0, {&tile, 1})[0]);
-    }
-    const TileSample sample = choose_tiles(brightness, context.certify_fully() ? rows : kRows, params.seed);
+    const int size = params.size;
+    const Tiling strips(size, context.certify_fully() ? size : std::min(size, kStrip), 1);
+    const TileSample sample =
+        choose_tiles(strips.brightness(product.images[0], 0),
+                     context.certify_fully() ? static_cast<int>(strips.count()) : kStrips, params.seed);
     std::vector<std::size_t> chosen = sample.certain;
     chosen.insert(chosen.end(), sample.drawn.begin(), sample.drawn.end());
     std::vector<double> squared(chosen.size());
     context.parallel_for(static_cast<std::int64_t>(chosen.size()), 1, [&](std::int64_t begin, std::int64_t) {
         const auto k = static_cast<std::size_t>(begin);
-        const int face = static_cast<int>(chosen[k]) / size, y = static_cast<int>(chosen[k]) % size;
-        std::vector<float> truth(static_cast<std::size_t>(size) * 3);
-        environment.resample_row(size, face, y, truth);
-        const float* stored = product.images[0].texel(0, face, y, 0);
+        const Tile strip = strips[chosen[k]];
+        std::vector<float> truth(static_cast<std::size_t>(strip.width) * 3);
+        environment.resample_strip(size, {strip.face, strip.left, strip.top}, truth);
+        const float* stored = product.images[0].texel(0, strip.face, strip.top, strip.left);
         for (std::size_t i = 0; i < truth.size(); ++i) {
             const double difference = stored[i] / product.scale - static_cast<double>(truth[i]);
             squared[k] += difference * difference;
@@ -200,10 +218,11 @@ Figure mirror_figure(const ProbeParams& params, const Environment& environment, 
     const bool all = sample.drawn.empty();
     return relative_rmse(estimate_total(sample, std::span(squared).first(sample.certain.size()),
                                         std::span(squared).subspan(sample.certain.size())),
-                         3.0 * size * rows, mean_of_level(product, 0), 0, all,
+                         18.0 * size * size, mean_of_level(product, 0), 0, all,
                          all ? "all stored texels against the resampled source"
-                             : "stored texels of " + std::to_string(chosen.size()) +
-                                   " rows, the brightest and others by hash, against the resampled source",
+                             : "stored texels of " + std::to_string(chosen.size()) + " strips of " +
+                                   std::to_string(std::min(size, kStrip)) +
+                                   ", the brightest and others by hash, against the resampled source",
                          0);
 }
 
@@ -225,11 +244,10 @@ std::vector<Figure> level_figures(const LevelCheck& check, int count, const Prob
                                   Context& context) {
     const int size = size_of_level(params, check.level);
     const bool tiled = context.certify_fully() && size >= kSmallestTiled;
-    const std::vector<Tile> tiles = all_tiles(size, tiled ? kTile : 1);
-    if (context.certify_fully()) count = static_cast<int>(tiles.size());
-    const std::vector<double> brightness = brightness_of_tiles(check.product.images[0], check.level, tiles);
-    const TileSample sample =
-        choose_tiles(brightness, count, pbr::random_bits(params.seed, 0x6365u, check.level));
+    const Tiling tiles(size, tiled ? kTile : 1, tiled ? kTile : 1);
+    if (context.certify_fully()) count = static_cast<int>(tiles.count());
+    const TileSample sample = choose_tiles(tiles.brightness(check.product.images[0], check.level), count,
+                                           pbr::random_bits(params.seed, 0x6365u, check.level));
     std::vector<std::size_t> chosen = sample.certain;
     chosen.insert(chosen.end(), sample.drawn.begin(), sample.drawn.end());
     context.expect(static_cast<double>(chosen.size()));

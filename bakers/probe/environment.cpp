@@ -84,6 +84,19 @@ std::span<float> row_of(std::span<float> rgb, int size, int row) {
 
 }  // namespace
 
+void Environment::resample_strip(int size, const pbr::CubeTexel& left, std::span<float> rgb_out) const {
+    if (is_cube() || size > equivalent_size()) {  // a row's texels share most of their work
+        std::vector<float> row(static_cast<std::size_t>(size) * 3);
+        resample_row(size, left.face, left.y, row);
+        std::copy_n(&row[static_cast<std::size_t>(left.x) * 3], rgb_out.size(), rgb_out.begin());
+        return;
+    }
+    std::vector<pbr::CubeTexel> texels;
+    for (std::size_t i = 0; i < rgb_out.size() / 3; ++i)
+        texels.push_back({left.face, left.x + static_cast<int>(i), left.y});
+    pbr::resample_area(equirect_, size, texels, rgb_out);
+}
+
 void Environment::resample_row(int size, int face, int y, std::span<float> rgb_out) const {
     const bool grows = size <= equivalent_size();
     if (is_cube())

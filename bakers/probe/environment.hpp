@@ -36,8 +36,9 @@ class Environment {
     /// Its transform for lobes of alpha >= smallest_alpha.
     pbr::LdHarmonic harmonic(double smallest_alpha, double max_error, const pbr::ForEach& each) const;
 
-    /// One row of a face, by the slower and more exact way: what resample() is held against.
-    void resample_row(int size, int face, int y, std::span<float> rgb_out) const;
+    /// Texels of a row of a face from `left` on, by the slower and more exact way: what resample() is held
+    /// against.
+    void resample_strip(int size, const pbr::CubeTexel& left, std::span<float> rgb_out) const;
 
     /// A whole cube of `size` (faces, rows, RGB): the mean over each texel, or bilinear where they shrink.
     void resample(int size, const pbr::ForEach& each, std::span<float> rgb_out) const;
@@ -46,6 +47,8 @@ class Environment {
     void resample_area(int size, const pbr::ForEach& each, std::span<float> rgb_out) const;
 
   private:
+    void resample_row(int size, int face, int y, std::span<float> rgb_out) const;
+
     pbr::EquirectView equirect_;
     pbr::CubeView cube_;
     std::vector<float> permuted_;

@@ -22,6 +22,10 @@ double texel_angle_of(const EquirectView& source) {
     return std::max(2 * std::numbers::pi / source.width, std::numbers::pi / source.height);
 }
 
+/// Points around a picture of which sines and cosines are tabulated, but for one a texel: larger pictures
+/// take more of them at few places.
+constexpr int kMostTabulated = 4096;
+
 /// Where a single point of a row of texels belongs, in rows: the middle of their area, two thirds of a row
 /// from a pole. To second order in the row's height h it is h^2/12 cot(colatitude) beside the middle of the
 /// row.
@@ -157,6 +161,8 @@ PatchBlocks::AxisPoints PatchBlocks::colatitudes(int first, int count, const Qua
 }
 
 void PatchBlocks::tabulate_halves() {
+    half_columns_.reserve(2 * static_cast<std::size_t>(equirect_.width) + 1);
+    half_rows_.reserve(2 * static_cast<std::size_t>(equirect_.height) + 1);
     for (int i = 0; i <= 2 * equirect_.width; ++i)
         half_columns_.push_back(sin_cos_pi(1 - static_cast<double>(i) / equirect_.width));
     for (int i = 0; i <= 2 * equirect_.height; ++i)
@@ -166,6 +172,7 @@ void PatchBlocks::tabulate_halves() {
 void PatchBlocks::tabulate_axes() {
     tabulate_halves();
     for (std::size_t k = 0; k < longitudes_.size(); ++k) {
+        if (k > 0 && kOrders[k] * equirect_.width > kMostTabulated) break;
         longitudes_[k] = longitudes(0, equirect_.width, rules_[k]);
         for (std::vector<double>* table :
              {&longitudes_[k].sines, &longitudes_[k].cosines, &longitudes_[k].weights})
@@ -201,7 +208,8 @@ void PatchBlocks::append(const Block& block, int order_index, PatchPoints& point
 }
 
 bool PatchBlocks::is_tabulated(int order_index) const {
-    return !cube_.rgb && grid_.faces > 0 && order_index < static_cast<int>(longitudes_.size());
+    return order_index < static_cast<int>(longitudes_.size()) &&
+           !longitudes_[static_cast<std::size_t>(order_index)].sines.empty();
 }
 
 LatLongPatch PatchBlocks::lat_long_patch(const Block& block, int order_index, const AxisPoints& columns,

@@ -91,7 +91,7 @@ class PatchBlocks {
     void append_points(int block, int order_index, PatchPoints& points) const;
 
     /// A block of an equirect as its axes, for kernels that need no list of its points; `patch` is filled and
-    /// points into this. False where the axes aren't tabulated: of cubes, and for orders above 8.
+    /// points into this. False where the axes aren't tabulated: of cubes, and for high orders.
     bool tabulated_patch(int block, int order_index, LatLongPatch& patch) const;
 
   private:
