@@ -30,6 +30,9 @@ constexpr float kBright = 4;  // times the mean
 /// along a leaf's side, 32 to 8 a texel.
 constexpr double kCutError = 1e-4, kPointsAtHorizon = 128;
 
+/// What nodes are allowed at first, in tolerances.
+constexpr double kGenerous = 3;
+
 constexpr std::size_t kBatch = 512;  // points that are summed at once: they stay in the nearest cache
 
 /// Cosine and sine of an angle in [0, pi].
@@ -37,9 +40,9 @@ struct Angle {
     double cos, sin;
 };
 
-/// The angle between unit vectors a chord apart, without cancellation.
-Angle angle_of(double chord) {
-    const double square = std::min(4.0, chord * chord);
+/// The angle between unit vectors, from the square of the chord between them, without cancellation.
+Angle angle_of(double chord_squared) {
+    const double square = std::min(4.0, chord_squared);
     return {1 - square / 2, std::sqrt(square * (1 - square / 4))};
 }
 Angle difference(Angle a, Angle b) {  // 0 if b is larger
@@ -67,6 +70,7 @@ class Judge {
         : normalisation_(kernel.normalisation()),
           alpha2_(kernel.alpha() * kernel.alpha()),
           slope_(std::max((1 - alpha2_) / 2, 1e-12)),
+          inverse_slope_(1 / slope_),
           allowed_(tolerance / (4 * std::numbers::pi)) {}
 
     /// `apart`: angle between the axes of node and group; `spread`: half angle of the group.
@@ -82,11 +86,12 @@ class Judge {
         const double highest = highest_centre + swing;
         if (highest <= 0) return {Standing::below, 0};
         // 1/f^2 has its pole where f(x) = alpha^2 + (1 - x) slope is 0.
-        const double f = alpha2_ + slope_ * (1 - highest_centre), distance = f / slope_, q = swing / distance;
+        const double f = alpha2_ + slope_ * (1 - highest_centre), distance = f * inverse_slope_;
+        const double inverse_f = 1 / f, q = swing * slope_ * inverse_f;
         if (q >= 0.5) return {Standing::near, 0};
         // k = N (x + D u) / f^2 / (1 - u)^2 with u = (n.d - x) / D: the series from u^4 on.
         const double tail = q * q * q * q / ((1 - q) * (1 - q));
-        double remainder = normalisation_ / (f * f) *
+        double remainder = normalisation_ * inverse_f * inverse_f *
                            (std::max(std::abs(highest_centre), std::abs(lowest_centre)) * tail * (5 - 4 * q) +
                             distance * tail * (4 - 3 * q));
         const double lowest = lowest_centre - swing;
@@ -106,7 +111,7 @@ class Judge {
     }
 
   private:
-    double normalisation_, alpha2_, slope_, allowed_;
+    double normalisation_, alpha2_, slope_, inverse_slope_, allowed_;
 };
 
 /// A block whose points a group needs.
@@ -128,10 +133,9 @@ struct Place {
 /// Sorts the tree's nodes for a group.
 class Walker {
   public:
-    Walker(const MomentTree& tree, double alpha, const Judge& judge)
-        : tree_(tree), alpha_(alpha), judge_(judge) {}
+    Walker(const MomentTree& tree, double alpha) : tree_(tree), alpha_(alpha) {}
 
-    void operator()(const Cone& cone, Walk& walk) {
+    void operator()(const Cone& cone, const Judge& judge, Walk& walk) {
         const SinCos half_angle = sin_cos_pi(cone.half_angle / std::numbers::pi);
         const Angle spread{half_angle.cos, half_angle.sin};
         const int top = tree_.levels() - 1;
@@ -143,9 +147,9 @@ class Walker {
             const MomentTree::Level& level = tree_.level(place.level);
             const int index = (place.face * level.rows + place.y) * level.columns + place.x;
             const MomentCone& node = level.cones[static_cast<std::size_t>(index)];
-            const Angle apart =
-                angle_of(glm::length(cone.axis - glm::dvec3(node.axis[0], node.axis[1], node.axis[2])));
-            const Verdict verdict = judge_(node, apart, spread);
+            const glm::dvec3 between = cone.axis - glm::dvec3(node.axis[0], node.axis[1], node.axis[2]);
+            const Angle apart = angle_of(glm::dot(between, between));
+            const Verdict verdict = judge(node, apart, spread);
             if (verdict.standing == Standing::near) {
                 if (place.level > 0) {
                     push_children(place);
@@ -166,7 +170,8 @@ class Walker {
   private:
     /// The order of points of a leaf.
     int order_index(const MomentCone& node, Angle apart, Angle spread) const {
-        const Angle reach = angle_of(node.reach), nearest = difference(difference(apart, spread), reach);
+        const Angle reach = angle_of(double{node.reach} * double{node.reach}),
+                    nearest = difference(difference(apart, spread), reach);
         // Its sine is not above the angle: rather too many points than too few.
         const int order =
             ld_order_index(tree_.blocks().texel_angle(), alpha_, nearest.cos > 0 ? nearest.sin : 1);
@@ -202,7 +207,6 @@ class Walker {
 
     const MomentTree& tree_;
     double alpha_;
-    const Judge& judge_;
     std::vector<Place> stack_;
 };
 
@@ -212,19 +216,23 @@ class TreeSum {
     TreeSum(const MomentTree& tree, double alpha, double tolerance)
         : tree_(tree),
           alpha_(alpha),
+          tolerance_(tolerance),
           kernel_(alpha),
-          judge_(kernel_, tolerance),
-          walker_(tree, alpha, judge_) {}
+          generous_(kernel_, kGenerous * tolerance),
+          strict_(kernel_, tolerance),
+          walker_(tree, alpha) {}
 
     /// Adds what `cone` takes from the tree to `sums`, an LdGroup or LdSingle. Returns the proven bounds of
     /// the errors of r, g, b and the weights.
     template <class Sums>
     std::array<double, 4> add(const Cone& cone, Sums& sums) {
-        Walk walk;
-        walker_(cone, walk);
+        const Walk walk = walk_of(cone);
         ld_add_nodes(walk.far, alpha_, kernel_.normalisation(), sums);
         evaluations_ += walk.far.size();
-        for (const Visit& visit : walk.near) add_near(visit, sums);
+        for (std::size_t i = 0; i < walk.near.size(); ++i) {
+            if (i + 1 < walk.near.size()) prefetch(walk.near[i + 1]);
+            add_near(walk.near[i], sums);
+        }
         add_points(sums);
         return walk.remainder;
     }
@@ -233,6 +241,33 @@ class TreeSum {
     std::uint64_t evaluations() const { return evaluations_; }
 
   private:
+    /// All nodes together mostly stay within the tolerance where each is allowed more: fewer are opened.
+    Walk walk_of(const Cone& cone) {
+        Walk walk;
+        walker_(cone, generous_, walk);
+        const glm::dvec3 mean = tree_.mean();
+        const double allowed = tolerance_ * (mean.x + mean.y + mean.z) / 3;
+        const auto& [r, g, b, weights] = walk.remainder;
+        if (std::max({r, g, b}) > allowed || weights > tolerance_) {
+            walk = {};
+            walker_(cone, strict_, walk);
+        }
+        return walk;
+    }
+
+    /// A large picture's rows lie pages apart, where the processor doesn't guess what comes next.
+    void prefetch(const Visit& visit) const {
+        const PatchBlocks& blocks = tree_.blocks();
+        const EquirectView& picture = blocks.equirect();
+        if (!picture.rgb) return;
+        constexpr int kLine = 16;  // floats
+        const auto [faces, columns, rows, side] = blocks.grid();
+        const int x = visit.block % columns * side, y = visit.block / columns * side;
+        const int width = 3 * std::min(side, picture.width - x), bottom = std::min(y + side, picture.height);
+        for (int row = y; row < bottom; ++row)
+            for (int i = 0; i < width; i += kLine) hwy::Prefetch(picture.texel(x, row) + i);
+    }
+
     template <class Sums>
     void add_near(const Visit& visit, Sums& sums) {
         if constexpr (std::is_same_v<Sums, LdSingle>) {
@@ -257,8 +292,9 @@ class TreeSum {
 
     const MomentTree& tree_;
     double alpha_;
+    double tolerance_;
     GgxZonalKernel kernel_;
-    Judge judge_;
+    Judge generous_, strict_;
     Walker walker_;
     PatchPoints points_;
     std::uint64_t evaluations_ = 0;

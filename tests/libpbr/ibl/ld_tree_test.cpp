@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -148,6 +149,55 @@ TEST(LdTree, ConstantEnvironmentStaysConstantAndLargeRadianceFinite) {
             for (const double result : rgb) EXPECT_NEAR(result / value, 1, 1e-5);
         }
     }
+}
+
+/// All nodes against points of their texels, about the nodes' own centres.
+void expect_moments_of_texels(const PatchBlocks& blocks) {
+    const MomentTree tree(blocks, for_each_in_turn);
+    const PatchBlocks::Grid& grid = blocks.grid();
+    for (int index = 0; index < tree.levels(); ++index) {
+        const MomentTree::Level& level = tree.level(index);
+        std::vector<std::array<std::array<double, 4>, kMomentCount>> sums(level.cones.size());
+        for (int block = 0; block < blocks.count(); ++block) {
+            const int x = block % grid.columns >> index, y = block / grid.columns % grid.rows >> index,
+                      face = block / grid.columns / grid.rows;
+            const std::size_t node = static_cast<std::size_t>((face * level.rows + y) * level.columns + x);
+            const glm::dvec3 centre = level.cones[node].centre();
+            PatchPoints points;
+            blocks.points(block, 3, points);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const glm::dvec3 d = glm::dvec3(points.x[i], points.y[i], points.z[i]) - centre;
+                const std::array<float, 4> values{points.r[i], points.g[i], points.b[i], 1};
+                for (std::size_t k = 0; k < kMomentCount; ++k) {
+                    const auto [a, b, c] = kMonomials[k];
+                    const double share = points.weight[i] * std::pow(d.x, a) * std::pow(d.y, b) *
+                                         std::pow(d.z, c) / std::tgamma(a + 1.0) / std::tgamma(b + 1.0) /
+                                         std::tgamma(c + 1.0);
+                    for (std::size_t v = 0; v < 4; ++v) sums[node][k][v] += share * values[v];
+                }
+            }
+        }
+        for (std::size_t node = 0; node < sums.size(); ++node)
+            for (std::size_t k = 0; k < kMomentCount; ++k) {
+                // Points are rounded to float.
+                const int degree = kMonomials[k].a + kMonomials[k].b + kMonomials[k].c;
+                const double reach = level.cones[node].reach, solid_angle = level.cones[node].solid_angle;
+                for (std::size_t v = 0; v < 4; ++v)
+                    EXPECT_NEAR(
+                        level.moments[node].mean[k][v], sums[node][k][v] / solid_angle,
+                        2e-6 * level.moments[node].mean[0][v] * std::pow(reach, std::max(0, degree - 1)))
+                        << "level " << index << " node " << node << " moment " << k << " channel " << v;
+            }
+    }
+}
+
+TEST(MomentTree, NodesHoldTheMomentsOfTheirTexels) {
+    const std::vector<float> picture = noise(64 * 32, 100), odd = noise(27 * 13, 100);
+    expect_moments_of_texels(PatchBlocks(EquirectView{picture.data(), 64, 32}));
+    // About an axis that is no picture's, by .8 and .6, and mirrored.
+    const glm::dmat3 turned =
+        glm::dmat3(0.8, 0.6, 0, -0.6, 0.8, 0, 0, 0, -1) * glm::dmat3(1, 0, 0, 0, 0.8, 0.6, 0, -0.6, 0.8);
+    expect_moments_of_texels(PatchBlocks(EquirectView{odd.data(), 27, 13, turned}));
 }
 
 TEST(MomentTree, LowBandsAreThoseOfItsTexels) {

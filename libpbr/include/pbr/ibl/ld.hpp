@@ -79,19 +79,19 @@ struct LdTreeError {
 };
 
 /// The same with distant parts taken as one: a node of the tree in place of its texels wherever the Taylor
-/// remainder of the kernel over it is below tolerance / (4 pi) for all of a group of directions; across the
-/// horizon, where only a band of nodes is concerned, half the tolerance for all of the band. The error is
-/// then below about `tolerance` times the mean of the picture's channel plus the result: the figure returned
-/// adds up what was allowed where it was, and is usually half of that. The error itself, whose signs
-/// alternate, is about a hundredth. `tolerance` in (0, 1]. Counts nodes and points as evaluations, those of
-/// 16 directions that lie within .1 rad together as one.
+/// remainder of the kernel over it is below tolerance / (4 pi) for all of a group of directions (or three
+/// times that, if all nodes together stay below the tolerance) and across the horizon, in a band of nodes,
+/// half the tolerance for all of the band. The error is then below about `tolerance` times the mean of the
+/// picture plus the result: the figure returned adds up what was allowed where it was, and is usually half of
+/// that. The error itself, of changing signs, is about a hundredth. `tolerance` in (0, 1]. Counts nodes and
+/// points as evaluations, those of 16 directions that lie within .1 rad together as one.
 LdTreeError ld_exact(const MomentTree& source, double alpha, double tolerance,
                      std::span<const glm::dvec3> directions, std::span<double> rgb_out,
                      std::uint64_t& evaluations);
 
 /// The same sum over part of a sphere, not divided by anything: what the texels of `part` add to LD. Relative
-/// error below 1e-5; of texels that the horizon cuts, by 32 x 32 points, below 1e-4 of what a whole texel adds
-/// one texel higher.
+/// error below 1e-5; of texels that the horizon cuts, by 32 x 32 points, below 1e-4 of what a whole texel
+/// adds one texel higher.
 void ld_partial(const PatchBlocks& part, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations);
 
