@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <ranges>
 
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/sequence.hpp"
@@ -36,15 +37,14 @@ TileSample choose_tiles(std::span<const double> brightness, int count, std::uint
     for (std::size_t i = 0; i < parts; ++i)
         weight[i] = (total > 0 ? brightness[i] / total : 0) + 1.0 / static_cast<double>(parts);
     // At most half of the parts can be certain: the heaviest, in order.
-    std::vector<std::size_t> order(parts);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::partial_sort(order.begin(), order.begin() + count / 2, order.end(),
-                      [&](std::size_t a, std::size_t b) {
-                          return weight[a] > weight[b] || (weight[a] == weight[b] && a < b);
-                      });
+    std::vector<std::size_t> order(static_cast<std::size_t>(count) / 2);
+    std::ranges::partial_sort_copy(std::views::iota(std::size_t{0}, parts), order,
+                                   [&](std::size_t a, std::size_t b) {
+                                       return weight[a] > weight[b] || (weight[a] == weight[b] && a < b);
+                                   });
     double left = std::accumulate(weight.begin(), weight.end(), 0.0);
     std::size_t certain = 0;
-    while (certain < static_cast<std::size_t>(count) / 2 &&
+    while (certain < order.size() &&
            weight[order[certain]] * static_cast<double>(static_cast<std::size_t>(count) - certain) >= left)
         left -= weight[order[certain++]];
     sample.certain.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(certain));
