@@ -32,38 +32,44 @@ TileSample choose_tiles(std::span<const double> brightness, int count, std::uint
         std::iota(sample.certain.begin(), sample.certain.end(), std::size_t{0});
         return sample;
     }
-    const double total = std::accumulate(brightness.begin(), brightness.end(), 0.0);
-    std::vector<double> weight(parts);
-    for (std::size_t i = 0; i < parts; ++i)
-        weight[i] = (total > 0 ? brightness[i] / total : 0) + 1.0 / static_cast<double>(parts);
-    // At most half of the parts can be certain: the heaviest, in order.
+    // At most half of the parts can be certain: the brightest, in order.
     std::vector<std::size_t> order(static_cast<std::size_t>(count) / 2);
-    std::ranges::partial_sort_copy(std::views::iota(std::size_t{0}, parts), order,
-                                   [&](std::size_t a, std::size_t b) {
-                                       return weight[a] > weight[b] || (weight[a] == weight[b] && a < b);
-                                   });
-    double left = std::accumulate(weight.begin(), weight.end(), 0.0);
+    std::ranges::partial_sort_copy(
+        std::views::iota(std::size_t{0}, parts), order, [&](std::size_t a, std::size_t b) {
+            return brightness[a] > brightness[b] || (brightness[a] == brightness[b] && a < b);
+        });
+    // What is left without the first of them, small ones first: beside a sun the others would be lost.
+    std::vector<double> weight(brightness.begin(), brightness.end()), left(order.size() + 1);
+    for (const std::size_t i : order) weight[i] = 0;
+    left.back() = std::accumulate(weight.begin(), weight.end(), 0.0);
+    for (std::size_t k = order.size(); k-- > 0;) left[k] = left[k + 1] + brightness[order[k]];
     std::size_t certain = 0;
+    const auto weight_of = [&](std::size_t i) {
+        return (left[certain] > 0 ? brightness[i] / left[certain] : 0) +
+               1.0 / static_cast<double>(parts - certain);
+    };
     while (certain < order.size() &&
-           weight[order[certain]] * static_cast<double>(static_cast<std::size_t>(count) - certain) >= left)
-        left -= weight[order[certain++]];
+           weight_of(order[certain]) * static_cast<double>(static_cast<std::size_t>(count) - certain) >=
+               (left[certain] > 0 ? 2 : 1))
+        ++certain;
     sample.certain.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(certain));
+    for (std::size_t i = 0; i < parts; ++i) weight[i] = weight_of(i);
     for (const std::size_t i : sample.certain) weight[i] = 0;
 
     // One draw from each of equal shares of the weight, in the order of the parts: they spread over the
     // level.
-    left = std::accumulate(weight.begin(), weight.end(), 0.0);
+    const double all = std::accumulate(weight.begin(), weight.end(), 0.0);
     const std::size_t draws = static_cast<std::size_t>(count) - certain;
     double passed = 0;
     std::size_t part = 0;
     for (std::size_t k = 0; k < draws; ++k) {
         const double at =
-            left * (static_cast<double>(k) + pbr::random_unit(seed, k)) / static_cast<double>(draws);
+            all * (static_cast<double>(k) + pbr::random_unit(seed, k)) / static_cast<double>(draws);
         while (part + 1 < parts && (passed + weight[part] <= at || weight[part] == 0))
             passed += weight[part++];
         while (weight[part] == 0) --part;  // rounding led past the last one
         sample.drawn.push_back(part);
-        sample.probability.push_back(weight[part] / left);
+        sample.probability.push_back(weight[part] / all);
     }
     return sample;
 }

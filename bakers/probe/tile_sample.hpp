@@ -2,9 +2,9 @@
 // Which parts of a level are checked, and what they say of the whole.
 //
 // Errors follow brightness: rounding is a share of the value, and what a sun adds is wrong where it is
-// bright. Parts are therefore drawn with probability in half their share of the level's squared values, in
-// half alike (Hansen & Hurwitz 1943, "On the theory of sampling from finite populations"); those that would
-// be drawn for certain - a sun's peak - are all measured and take no part in the draw.
+// bright. Parts that would be drawn for certain - a sun's peak - are all measured and take no part in the
+// draw. Of the others each is drawn with probability in half its share of their squared values, in half alike
+// (Hansen & Hurwitz 1943, "On the theory of sampling from finite populations").
 
 #include <cstdint>
 #include <span>
