@@ -295,9 +295,9 @@ std::vector<Figure> level_figures(const LevelCheck& check, int count, const Prob
 
 /// A check of all texels that needs no exact sum.
 Figure low_band_figure(const Product& product, const pbr::SphereMoments& source, double mean, double alpha,
-                       int level) {
+                       int level, Context& context) {
     return {"low_band_error",
-            low_band_difference(product.images[0], level, product.scale, source, alpha) /
+            low_band_difference(product.images[0], level, product.scale, source, alpha, each_on(context, 0)) /
                 (mean * std::sqrt(4 * std::numbers::pi)),
             Evidence::measured,
             "largest difference of LD_lm from k_l E_lm, l to 3, over the mean's own coefficient; sums over "
@@ -329,7 +329,7 @@ Certificate certify(const ProbeParams& params, const Inputs& inputs, const Produ
                 {product, tree, l, alpha, std::min(1.0, kFarFieldShare * method.max_error),
                  kSlack * method.max_error},
                 method.integrator == Integrator::harmonic ? kChecked : kCheckedOfSamples, params, context);
-            figures.push_back(low_band_figure(product, source_moments, source_mean, alpha, l));
+            figures.push_back(low_band_figure(product, source_moments, source_mean, alpha, l, context));
         }
 
         if (!certificate.headline || figures[0].value > certificate.headline->value)

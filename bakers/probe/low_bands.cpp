@@ -134,14 +134,14 @@ class FaceSums {
 }  // namespace
 
 double low_band_difference(const Image& image, int level, double scale, const pbr::SphereMoments& source,
-                           double alpha) {
+                           double alpha, const pbr::ForEach& each) {
     const int n = image.levels[static_cast<std::size_t>(level)].width;
     const pbr::SphereMoments factors = filtered(source, alpha);
     const std::vector<double> solid_angles = pbr::cubemap_solid_angles(n);
-    Columns columns(n);
-    pbr::SphereMoments rest{};
-    for (int face = 0; face < 6; ++face) {
+    std::array<pbr::SphereMoments, 6> of_faces{};
+    each(6, [&](int face) {
         const std::array<FaceMonomial, pbr::kMomentCount> on_face = monomials_on(face);
+        Columns columns(n);
         std::array<FaceSums, 3> sums{FaceSums(n), FaceSums(n), FaceSums(n)};
         for (int y = 0; y < n; ++y) {
             const double t = (2 * y + 1.0) / n - 1;
@@ -154,10 +154,14 @@ double low_band_difference(const Image& image, int level, double scale, const pb
                 sums[static_cast<std::size_t>(c)].add_row(t, on_face, factors, c, columns);
             }
         }
-        for (std::size_t k = 0; k < rest.size(); ++k)
+        pbr::SphereMoments& own = of_faces[static_cast<std::size_t>(face)];
+        for (std::size_t k = 0; k < own.size(); ++k)
             for (int c = 0; c < 3; ++c)
-                rest[k][c] += sums[static_cast<std::size_t>(c)].moment(on_face[k], columns);
-    }
+                own[k][c] = sums[static_cast<std::size_t>(c)].moment(on_face[k], columns);
+    });
+    pbr::SphereMoments rest{};
+    for (const pbr::SphereMoments& of_face : of_faces)
+        for (std::size_t k = 0; k < rest.size(); ++k) rest[k] += of_face[k];
     double largest = 0;
     for (const glm::dvec3& coefficient : pbr::sh_project(rest, pbr::kMomentBands))
         for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(coefficient[c]));

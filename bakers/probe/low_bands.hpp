@@ -3,6 +3,7 @@
 
 #include "bakers/image.hpp"
 #include "pbr/ibl/moment_tree.hpp"
+#include "pbr/numerics/for_each.hpp"
 
 namespace pbrbake::probe {
 
@@ -11,6 +12,6 @@ namespace pbrbake::probe {
 /// alpha in (0, 1]. What the source foretells is taken off each texel, so that the sums over texels have to
 /// integrate only the rest: they leave up to 1 / size^2 of what is in higher bands.
 double low_band_difference(const Image& image, int level, double scale, const pbr::SphereMoments& source,
-                           double alpha);
+                           double alpha, const pbr::ForEach& each);
 
 }  // namespace pbrbake::probe
