@@ -55,8 +55,7 @@ constexpr std::array<Step, kSteps> kShift = steps_of_shift();
 /// Points a texel and axis: exact to rounding for pictures of more than a few texels.
 constexpr int kPoints = 4;
 
-/// Means of `values` over points of weights `weights` of powers s^i c^j, i + j <= 3, in the order of j within
-/// that of i; the first `count` of them.
+/// Adds sin^i cos^j of a point times its weight, in the order of LatLongBlock: the first `count` of them.
 void add_powers(const SinCos& at, double weight, std::size_t count, double* sums) {
     std::size_t k = 0;
     double of_sine = weight;
