@@ -3,9 +3,9 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/simd/patch_kernel.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
-#include <hwy/cache_control.h>
 
 #include <algorithm>
 #include <array>
@@ -185,9 +185,7 @@ HWY_INLINE void sum_rows(const LatLongBlock& block, RowSums& sums) {
 }
 
 /// Places of sin^i cos^j in the order of LatLongBlock.
-constexpr std::size_t place_of(int i, int j) {
-    return static_cast<std::size_t>(i * 4 - i * (i - 1) / 2 + j);
-}
+constexpr std::size_t place_of(int i, int j) { return static_cast<std::size_t>(i * 4 - i * (i - 1) / 2 + j); }
 
 /// x^a y^b z^c is sin^(a+c) cos^b of the colatitude times sin^a cos^c of the longitude.
 struct Factors {
