@@ -105,12 +105,8 @@ Product bake(const ProbeParams& params, const Inputs& inputs, Context& context) 
     image.channels = {"R", "G", "B"};
     image.faces = 6;
     image.levels.resize(static_cast<std::size_t>(level_count(params)));
-    context.expect(6.0 * params.size * params.size);
-    image.levels[0] = empty_level(params.size);
-    environment.resample(params.size, each_on(context, params.size), image.levels[0].texels);
     const Method method = method_of(params, context.accuracy());
-    const Json notes =
-        level_count(params) > 1 ? filter_levels(params, method, environment, context, image) : Json();
+    const Json notes = fill_levels(params, method, environment, context, image);
 
     Product product;
     product.images.push_back(std::move(image));

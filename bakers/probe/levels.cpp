@@ -4,6 +4,8 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "bakers/probe/chain.hpp"
@@ -51,15 +53,28 @@ Level filled_by_tiles(Context& context, int size, double work_of_texel, const Fi
     return level;
 }
 
-/// Fills all levels by tiles; `filter_of(level, alpha)` makes each level's filter.
+/// Level 0: the environment itself, resampled.
+void fill_mirror(const ProbeParams& params, const Environment& environment, Context& context, Image& image) {
+    image.levels[0] = empty_level(params.size);
+    environment.resample(params.size, each_on(context, params.size), image.levels[0].texels);
+}
+
+/// Fills levels from 1 on by tiles, and side by side; `filter_of(level, alpha, note)` makes each level's
+/// filter and says what there is to say of it.
 template <class FilterOf>
-void fill_levels(const ProbeParams& params, double work_of_texel, Context& context, Image& image,
-                 const FilterOf& filter_of) {
-    for (int l = 1; l < level_count(params); ++l)
+Json filter_levels(const ProbeParams& params, double work_of_texel, Context& context, Image& image,
+                   const FilterOf& filter_of) {
+    const int levels = level_count(params);
+    for (int l = 1; l < levels; ++l)
         context.expect(6 * work_of_texel * size_of_level(params, l) * size_of_level(params, l));
-    for (int l = 1; l < level_count(params); ++l)
-        image.levels[static_cast<std::size_t>(l)] = filled_by_tiles(
-            context, size_of_level(params, l), work_of_texel, filter_of(l, alpha_of_level(params, l)));
+    Json notes(static_cast<std::size_t>(levels - 1), Json::object());
+    each_on(context, 0)(levels - 1, [&](int i) {
+        const int l = i + 1, size = size_of_level(params, l);
+        image.levels[static_cast<std::size_t>(l)] =
+            filled_by_tiles(context, size, work_of_texel,
+                            filter_of(l, alpha_of_level(params, l), notes[static_cast<std::size_t>(i)]));
+    });
+    return notes;
 }
 
 /// Texels a side of the pyramid that samples read: about ten across the narrowest lobe (finer ones change no
@@ -84,20 +99,19 @@ pbr::CubePyramid make_pyramid(const ProbeParams& params, const Environment& envi
 /// Work of a sample, in texels copied.
 constexpr double kWorkOfSample = 0.01;
 
-/// Fills all levels by sampling; `filter_of(samples, alpha)` makes each level's filter.
+/// Fills levels by sampling; `filter_of(samples, alpha)` makes each level's filter.
 template <class FilterOf>
 Json sampled_levels(const ProbeParams& params, Context& context, Image& image, const FilterOf& filter_of) {
-    Json notes = Json::array();
-    fill_levels(params, samples_of_level(params, context.accuracy(), 1) * kWorkOfSample, context, image,
-                [&](int l, double alpha) {
-                    const int samples = samples_of_level(params, context.accuracy(), l);
-                    notes.push_back({{"samples", samples}});
-                    return [integrator = filter_of(samples, alpha)](
-                               int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb) {
-                        return integrator.integrate(size, texels, rgb);
-                    };
-                });
-    return notes;
+    return filter_levels(params, samples_of_level(params, context.accuracy(), 1) * kWorkOfSample, context,
+                         image, [&](int l, double alpha, Json& note) {
+                             const int samples = samples_of_level(params, context.accuracy(), l);
+                             note["samples"] = samples;
+                             return
+                                 [integrator = filter_of(samples, alpha)](
+                                     int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb) {
+                                     return integrator.integrate(size, texels, rgb);
+                                 };
+                         });
 }
 
 /// Plain or filtered samples of a pyramid.
@@ -124,29 +138,31 @@ Json mis_levels(const ProbeParams& params, const Environment& environment, Conte
 Json sum_levels(const ProbeParams& params, const Environment& environment, Context& context, Image& image) {
     const pbr::PatchBlocks blocks = environment.blocks();
     const double n = environment.equivalent_size();
-    Json notes = Json::array();
-    fill_levels(params, 6 * n * n * 1e-3, context, image, [&](int, double alpha) {
-        notes.push_back(Json::object());
+    return filter_levels(params, 6 * n * n * 1e-3, context, image, [&](int, double alpha, Json&) {
         return [integrator = pbr::LdIntegrator({}, alpha, &blocks, nullptr)](
                    int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb) {
             return integrator.integrate(size, texels, rgb);
         };
     });
-    return notes;
 }
 
+/// Level 0 while the picture is transformed, which leaves a second thread little to do.
 Json solve_levels(const ProbeParams& params, const Method& method, const Environment& environment,
                   Context& context, Image& image) {
-    if (level_count(params) < 2) return Json::array();
     const pbr::ForEach each = each_on(context, 0);
-    const pbr::LdHarmonic harmonic = environment.harmonic(alpha_of_level(params, 1), method.max_error, each);
-    Json notes = Json::array();
-    fill_levels(params, 0.1, context, image, [&](int, double alpha) {
-        const auto level = std::make_shared<pbr::LdHarmonic::Level>(harmonic.level(alpha, each));
-        notes.push_back({{"bands", level->bands()},
-                         {"truncation_error", level->truncation_error()},
-                         {"bright_texels_apart", harmonic.bright_texels()}});
-        if (level->near_radius() > 0) notes.back()["near_radius_rad"] = level->near_radius();
+    std::optional<pbr::LdHarmonic> harmonic;
+    each(2, [&](int task) {
+        if (task == 0)
+            fill_mirror(params, environment, context, image);
+        else
+            harmonic.emplace(environment.harmonic(alpha_of_level(params, 1), method.max_error, each));
+    });
+    return filter_levels(params, 0.1, context, image, [&](int, double alpha, Json& note) {
+        const auto level = std::make_shared<pbr::LdHarmonic::Level>(harmonic->level(alpha, each));
+        note = {{"bands", level->bands()},
+                {"truncation_error", level->truncation_error()},
+                {"bright_texels_apart", harmonic->bright_texels()}};
+        if (level->near_radius() > 0) note["near_radius_rad"] = level->near_radius();
         return [level](int size, std::span<const pbr::CubeTexel> texels, std::span<float> rgb) {
             std::vector<glm::dvec3> directions;
             for (const pbr::CubeTexel& texel : texels)
@@ -154,7 +170,6 @@ Json solve_levels(const ProbeParams& params, const Method& method, const Environ
             return texels.size() + level->integrate(directions, rgb);
         };
     });
-    return notes;
 }
 
 }  // namespace
@@ -174,11 +189,14 @@ pbr::ForEach each_on(Context& context, double work) {
     };
 }
 
-Json filter_levels(const ProbeParams& params, const Method& method, const Environment& environment,
-                   Context& context, Image& image) {
+Json fill_levels(const ProbeParams& params, const Method& method, const Environment& environment,
+                 Context& context, Image& image) {
+    context.expect(6.0 * params.size * params.size);
+    if (level_count(params) > 1 && method.integrator == Integrator::harmonic)
+        return solve_levels(params, method, environment, context, image);
+    fill_mirror(params, environment, context, image);
+    if (level_count(params) < 2) return Json::array();
     switch (method.integrator) {
-        case Integrator::harmonic:
-            return solve_levels(params, method, environment, context, image);
         case Integrator::reference:
             return sum_levels(params, environment, context, image);
         case Integrator::mis:

@@ -17,9 +17,9 @@ Level empty_level(int size);
 /// The context's workers as libpbr takes them; each body is `work` for the progress bar.
 pbr::ForEach each_on(Context& context, double work);
 
-/// Levels from 1 on into image.levels, whose level 0 is there. Returns what there is to say of each: its
-/// samples, or the band limit and what it leaves out.
-Json filter_levels(const ProbeParams& params, const Method& method, const Environment& environment,
-                   Context& context, Image& image);
+/// Fills image.levels. Returns what there is to say of each from 1 on: its samples, or the band limit and
+/// what it leaves out.
+Json fill_levels(const ProbeParams& params, const Method& method, const Environment& environment,
+                 Context& context, Image& image);
 
 }  // namespace pbrbake::probe

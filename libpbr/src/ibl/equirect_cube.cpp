@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -114,14 +115,22 @@ void resample_area(const EquirectView& source, int size, const ForEach& each, st
                           rgb_out.subspan(static_cast<std::size_t>(row) * stride, stride));
         });
     constexpr int kStrip = 16;  // rows; a line between strips is traced for both
-    for (const Pattern& pattern : patterns_of(source, size)) {
-        const Graticule graticule(source.width, source.height, pattern.phase);
-        const int rows = pattern.grid.rows;
-        each((rows + kStrip - 1) / kStrip, [&](int strip) {
-            fill_rows(source, graticule, pattern, strip * kStrip, std::min(rows, (strip + 1) * kStrip),
-                      rgb_out);
-        });
+    struct Strip {
+        const Pattern* pattern;
+        int first;
+    };
+    const std::vector<Pattern> patterns = patterns_of(source, size);
+    std::map<double, Graticule> graticules;  // by phase
+    std::vector<Strip> strips;
+    for (const Pattern& pattern : patterns) {
+        graticules.try_emplace(pattern.phase, source.width, source.height, pattern.phase);
+        for (int first = 0; first < pattern.grid.rows; first += kStrip) strips.push_back({&pattern, first});
     }
+    each(static_cast<int>(strips.size()), [&](int i) {
+        const auto [pattern, first] = strips[static_cast<std::size_t>(i)];
+        fill_rows(source, graticules.at(pattern->phase), *pattern, first,
+                  std::min(pattern->grid.rows, first + kStrip), rgb_out);
+    });
 }
 
 }  // namespace pbr

@@ -21,12 +21,13 @@ constexpr double kLeast = 1e-10;
 
 RowShares mirrored(const RowShares& row, int reflected, int width) {
     RowShares result = row;
-    for (TexelGroup& group : result.groups) {
-        const int column = (reflected - group.column - 3) % width;  // of its last texel
-        group.column = column < 0 ? column + width : column;
+    auto shares = result.shares.begin();
+    for (TexelRun& run : result.runs) {
+        const int column = (reflected - run.column - (run.count - 1)) % width;  // of its last texel
+        run.column = column < 0 ? column + width : column;
+        std::reverse(shares, shares + run.count);
+        shares += run.count;
     }
-    for (std::size_t at = 0; at < result.shares.size(); at += 12)
-        std::reverse_copy(&row.shares[at], &row.shares[at] + 12, &result.shares[at]);
     return result;
 }
 
@@ -71,7 +72,7 @@ std::vector<Corner> GridShares::corners(const TexelGrid& grid, int j) const {
 
 const RowShares& GridShares::of_row(int j) {
     shares_.texels.clear();
-    shares_.groups.clear();
+    shares_.runs.clear();
     shares_.shares.clear();
     for (int i = 0; i < columns_; ++i) add_texel(outline(i, j - first_));
     return shares_;
@@ -145,26 +146,22 @@ void GridShares::add_shares(const Box& box, double turn) {
             cells[k].area += height * covered_[k];
             covered_[k] += cells[k].width;
         }
-        add_groups(cells, kLeast * height * column_width_, box.west, box.top + row);
+        add_run(cells, kLeast * height * column_width_, box.west, box.top + row);
     }
-    shares_.texels.back().groups_end = shares_.groups.size();
+    shares_.texels.back().runs_end = shares_.runs.size();
 }
 
-void GridShares::add_groups(std::span<const Cell> cells, double least, int west, int row) {
+void GridShares::add_run(std::span<const Cell> cells, double least, int west, int row) {
     std::size_t first = 0, last = cells.size();
     while (first < last && cells[first].area < least) ++first;
     while (first < last && cells[last - 1].area < least) --last;
+    if (first == last) return;
+    const int column = west + static_cast<int>(first), width = graticule_.width();
+    shares_.runs.push_back({column < width ? column : column - width, row, static_cast<int>(last - first)});
     double sum = 0;
-    for (; first < last; first += 4) {
-        const int column = west + static_cast<int>(first), width = graticule_.width();
-        shares_.groups.push_back({column < width ? column : column - width, row});
-        std::array<double, 12> group{};
-        for (std::size_t k = 0; k < std::min<std::size_t>(4, last - first); ++k) {
-            const double area = cells[first + k].area, share = area < least ? 0 : area;
-            group[3 * k] = group[3 * k + 1] = group[3 * k + 2] = share;
-            sum += share;
-        }
-        shares_.shares.insert(shares_.shares.end(), group.begin(), group.end());
+    for (const Cell& cell : cells.subspan(first, last - first)) {
+        shares_.shares.push_back(cell.area < least ? 0 : cell.area);
+        sum += shares_.shares.back();
     }
     shares_.texels.back().solid_angle += sum;
 }

@@ -23,22 +23,20 @@ struct TexelGrid {
     }
 };
 
-/// Four texels of the picture side by side, 0 <= column < its width; beyond the last column follows the
-/// first.
-struct TexelGroup {
-    int column, row;
+/// Texels of the picture side by side, 0 <= column < its width; beyond the last column follows the first.
+struct TexelRun {
+    int column, row, count;
 };
 
 /// What the texels of a row of the grid are made of.
 struct RowShares {
     struct Texel {
-        std::size_t groups_end;  ///< its groups begin where those of the texel before it end
-        double solid_angle;      ///< the sum of its shares, sr
+        std::size_t runs_end;  ///< its runs begin where those of the texel before it end
+        double solid_angle;    ///< the sum of its shares, sr
     };
     std::vector<Texel> texels;
-    std::vector<TexelGroup> groups;
-    /// Solid angles, sr: twelve a group, three times over those of its texels, for their channels.
-    std::vector<double> shares;
+    std::vector<TexelRun> runs;
+    std::vector<double> shares;  ///< solid angles of the runs' texels, sr
 };
 
 /// The same of the mirror image, in which column x of the picture is `reflected` - x, up to a turn of `width`
@@ -78,7 +76,7 @@ class GridShares {
     void add_texel(const Outline& outline);
     void add_side(const Side& side, const Box& box);
     void add_shares(const Box& box, double turn);
-    void add_groups(std::span<const Cell> cells, double least, int west, int row);
+    void add_run(std::span<const Cell> cells, double least, int west, int row);
 
     const Graticule& graticule_;
     double column_width_;

@@ -1,4 +1,4 @@
-// Lanes hold channels, or the twelve of four texels: any vector width gives the same bits.
+// Lanes hold channels: any vector width gives the same bits.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/simd/cube_images_kernel.cpp"
@@ -71,64 +71,89 @@ void interpolate_images_of(const EquirectView& source, const CubeImages& images,
     }
 }
 
-constexpr std::size_t kLanes = 12;  ///< RGB of a group of four texels
+/// Where images have runs of texels, on their way to the cache: of the first run in all images, of the
+/// second, and so on. Copies of those that the end of a row cuts, and of the picture's last texel, which has
+/// nothing behind it.
+class FoundRuns {
+  public:
+    FoundRuns(const EquirectView& source, std::span<const TexelRun> runs, std::span<const CubeImage> images)
+        : source_(source) {
+        found_.reserve(runs.size() * images.size());
+        for (const TexelRun& run : runs)
+            for (const CubeImage& image : images) {
+                int x = image.column + run.column;
+                x = x >= source.width ? x - source.width : x;
+                const int row = image.south ? source.height - 1 - run.row : run.row;
+                const float* texel = source.texel(x, row);
+                hwy::Prefetch(texel);
+                const int beyond = x + run.count - source.width;
+                found_.push_back(beyond < 0 ? texel : copy(texel, run.count, std::max(0, beyond)));
+            }
+    }
 
-/// Where an image has groups of texels, on their way to the cache; those that the end of a row cuts are
-/// copied.
-void find_groups(const EquirectView& source, const CubeImage& image, std::span<const TexelGroup> groups,
-                 std::vector<float>& copies, std::span<const float*> found) {
-    const long width = source.width, row_step = image.south ? -width : width;
-    const float* first_row = source.texel(0, image.south ? source.height - 1 : 0);
-    copies.clear();
-    copies.reserve(groups.size() * kLanes);
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-        long x = image.column + groups[k].column;
-        x = x >= width ? x - width : x;
-        const float* row = first_row + 3 * groups[k].row * row_step;
-        found[k] = row + 3 * x;
-        hwy::Prefetch(found[k]);
-        if (x + 4 > width) {
-            found[k] = copies.data() + copies.size();
-            copies.insert(copies.end(), row + 3 * x, row + 3 * width);
-            copies.insert(copies.end(), row, row + 3 * (x + 4 - width));
+    const float* const* all() const { return found_.data(); }
+
+  private:
+    const float* copy(const float* texel, int count, int beyond) {
+        const float* end = texel + 3L * (count - beyond);
+        std::vector<float>& run = copies_.emplace_back(texel, end);
+        run.insert(run.end(), end - 3L * source_.width, end - 3L * (source_.width - beyond));
+        run.push_back(0);
+        return run.data();
+    }
+
+    const EquirectView& source_;
+    std::vector<const float*> found_;
+    std::vector<std::vector<float>> copies_;
+};
+
+/// Of `kCount` images at once, which share what is known of their texels.
+template <std::size_t kCount>
+void mean_some_images(const EquirectView& source, std::span<const CubeImage, kCount> images,
+                      const RowShares& row, int j, std::span<float> rgb_out) {
+    const hn::CappedTag<double, 4> d;
+    const hn::Rebind<float, decltype(d)> narrow;
+    const FoundRuns found(source, row.runs, images);
+    float* out[kCount];
+    for (std::size_t n = 0; n < kCount; ++n)
+        out[n] = rgb_out.data() + (images[n].origin + j * images[n].step_j) * 3;
+    const float* const* run_texels = found.all();
+    const double* first_share = row.shares.data();
+    const TexelRun* run = row.runs.data();
+    for (const RowShares::Texel& texel : row.texels) {
+        HWY_ALIGN float rgb[kCount][4];
+        const TexelRun* const runs_end = row.runs.data() + texel.runs_end;
+        const auto scale = hn::Set(d, 1 / texel.solid_angle);
+        for (std::size_t channel = 0; channel < 4; channel += hn::Lanes(d)) {
+            hn::Vec<decltype(d)> sums[kCount];
+            for (std::size_t n = 0; n < kCount; ++n) sums[n] = hn::Zero(d);
+            const float* const* texels = run_texels;
+            const double* share = first_share;
+            for (const TexelRun* of = run; of != runs_end; ++of, texels += kCount)
+                for (long at = static_cast<long>(channel); at < 3L * of->count; at += 3, ++share) {
+                    const auto weight = hn::Set(d, *share);
+                    for (std::size_t n = 0; n < kCount; ++n)
+                        sums[n] = hn::Add(
+                            sums[n], hn::Mul(weight, hn::PromoteTo(d, hn::LoadU(narrow, texels[n] + at))));
+                }
+            for (std::size_t n = 0; n < kCount; ++n)
+                hn::StoreU(hn::DemoteTo(narrow, hn::Mul(sums[n], scale)), narrow, rgb[n] + channel);
+        }
+        for (; run != runs_end; ++run, run_texels += kCount) first_share += run->count;
+        for (std::size_t n = 0; n < kCount; ++n) {
+            std::copy_n(rgb[n], 3, out[n]);
+            out[n] += images[n].step_i * 3;
         }
     }
 }
 
 void mean_images_of(const EquirectView& source, const CubeImages& images, const RowShares& row, int j,
                     std::span<float> rgb_out) {
-    const hn::CappedTag<double, 4> d;
-    const hn::Rebind<float, decltype(d)> narrow;
-    std::vector<float> copies;
-    std::vector<const float*> found(row.groups.size());
-    for (const CubeImage& image : images) {
-        find_groups(source, image, row.groups, copies, found);
-        float* out = rgb_out.data() + (image.origin + j * image.step_j) * 3;
-        std::size_t first = 0;
-        for (const RowShares::Texel& texel : row.texels) {
-            HWY_ALIGN double sums[kLanes];
-            for (std::size_t part = 0; part < 4; part += hn::Lanes(d)) {
-                auto a = hn::Zero(d), b = hn::Zero(d), c = hn::Zero(d);
-                for (std::size_t k = first; k < texel.groups_end; ++k) {
-                    const auto product = [&](std::size_t at) HWY_ATTR {
-                        return hn::Mul(hn::LoadU(d, &row.shares[k * kLanes] + part + at),
-                                       hn::PromoteTo(d, hn::LoadU(narrow, found[k] + part + at)));
-                    };
-                    a = hn::Add(a, product(0));
-                    b = hn::Add(b, product(4));
-                    c = hn::Add(c, product(8));
-                }
-                hn::StoreU(a, d, sums + part);
-                hn::StoreU(b, d, sums + part + 4);
-                hn::StoreU(c, d, sums + part + 8);
-            }
-            const double scale = 1 / texel.solid_angle;
-            for (std::size_t channel = 0; channel < 3; ++channel)
-                out[channel] = static_cast<float>(
-                    ((sums[channel] + sums[channel + 3]) + (sums[channel + 6] + sums[channel + 9])) * scale);
-            out += image.step_i * 3;
-            first = texel.groups_end;
-        }
+    if (images.size() == kCubeImages) {
+        mean_some_images(source, std::span<const CubeImage, kCubeImages>(images), row, j, rgb_out);
+    } else {
+        for (const CubeImage& image : images)
+            mean_some_images(source, std::span<const CubeImage, 1>(&image, 1), row, j, rgb_out);
     }
 }
 
