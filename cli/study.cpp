@@ -56,7 +56,7 @@ verify::Depth depth_of(const Given& given) {
 }
 
 verify::RepeatLimits limits_of(const Given& given, verify::Depth depth) {
-    constexpr int kQuick_s = 150, kFull_s = 2100, kMost_s = 86'400;
+    constexpr int kQuick_s = 150, kFull_s = 1800, kMost_s = 86'400;
     verify::RepeatLimits limits;
     limits.budget_s = depth == verify::Depth::quick ? kQuick_s : kFull_s;
     if (const auto text = given.find("budget-s"))
@@ -169,7 +169,7 @@ Options study_command_options() {
            "[default: all processors]"},
           {"budget-s", "N",
            "Wall seconds from the start after which times are not repeated further. [default: 150, full: "
-           "2100]"},
+           "1800]"},
           {"against", "FILE",
            "The study.json of an earlier study: tells how many ratios of time agree within 10 %, and which "
            "is furthest off."},

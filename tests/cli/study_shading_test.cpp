@@ -29,10 +29,14 @@ TEST(StudyShading, WritesAPageAndFigures) {
 }
 
 TEST(StudyShading, WithoutOpenColorIOPicturesAreSrgb) {
-    // A copy of the program in a tree without modules.
+    // A copy of the program in a tree with the other module alone, which pictures need.
+    namespace fs = std::filesystem;
     const TemporaryFolder folder;
-    std::filesystem::create_directories(folder / "bin");
-    std::filesystem::copy_file(PBRBAKE_PROGRAM, folder / "bin/pbrbake");
+    for (const char* name : {"bin", "lib/pbrbake"}) fs::create_directories(folder / name);
+    fs::copy_file(PBRBAKE_PROGRAM, folder / "bin/pbrbake");
+    const fs::path module = "lib/pbrbake/pbrbake_oiio.so";
+    fs::create_symlink(fs::path(PBRBAKE_PROGRAM).parent_path().parent_path() / module,
+                       folder / module.string());
     const std::string command = (folder / "bin/pbrbake").string() + " study --shading --size 8 -o " +
                                 (folder / "study").string() + " > " + (folder / "out").string();
     ASSERT_EQ(std::system(command.c_str()), 0);
