@@ -56,7 +56,7 @@ verify::Depth depth_of(const Given& given) {
 }
 
 verify::RepeatLimits limits_of(const Given& given, verify::Depth depth) {
-    constexpr int kQuick_s = 90, kFull_s = 1500, kMost_s = 86'400;
+    constexpr int kQuick_s = 150, kFull_s = 1800, kMost_s = 86'400;
     verify::RepeatLimits limits;
     limits.budget_s = depth == verify::Depth::quick ? kQuick_s : kFull_s;
     if (const auto text = given.find("budget-s"))
@@ -141,7 +141,7 @@ void check_together(const Given& given) {
 Options study_command_options() {
     Options options("study", "[OPTIONS] [JOB]",
                     "Shows what accuracy costs in time: every method at every setting, its error against the "
-                    "reference, its CPU time measured until the median is known to 5 %.");
+                    "reference, its CPU time as a ratio that is measured until its median is known to 5 %.");
     options.add_positional(
         {{"job", "JOB", "Job file whose bakes are studied, instead of the built-in suite."}});
     options.add(
@@ -168,7 +168,8 @@ Options study_command_options() {
            "Worker threads of references and certificates; times are of one. "
            "[default: all processors]"},
           {"budget-s", "N",
-           "Wall seconds after which times are not repeated further. [default: 90, full: 1500]"},
+           "Wall seconds from the start after which times are not repeated further. [default: 150, full: "
+           "1800]"},
           {"against", "FILE",
            "The study.json of an earlier study: tells how many ratios of time agree within 10 %, and which "
            "is furthest off."},

@@ -13,6 +13,7 @@
 #include "bakers/verify/metrics.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/picture.hpp"
+#include "bakers/verify/turn.hpp"
 #include "pbr/ibl/cubemap.hpp"
 
 namespace pbrbake::verify {
@@ -99,6 +100,7 @@ class Diagnosis {
         consider(gamma());
         consider(b_.is_cube() ? moved_faces() : turned_picture());
         consider(shift());
+        consider(turn());
         consider(b_.is_cube() ? probe_roughness() : table_roughness());
         return best_.text;
     }
@@ -150,6 +152,7 @@ class Diagnosis {
     Suspect moved_faces() const;
     Suspect turned_picture() const;
     Suspect shift() const;
+    Suspect turn() const;
     Suspect table_roughness() const;
     Suspect probe_roughness() const;
 
@@ -368,6 +371,19 @@ Suspect Diagnosis::shift() const {
                     left};
     }
     return best;
+}
+
+/// What turns a face, or all by a quarter, has a name already.
+Suspect Diagnosis::turn() const {
+    constexpr double kLeast_deg = 0.1, kWellExplained = 0.1;
+    if (!b_.is_cube() || b_.channels.size() != 3 || best_.remainder < kWellExplained) return {};
+    const Turn turn = vertical_turn(a_, b_, level_, typical_);
+    if (turn.remainder > kRemainderResampled || std::abs(turn.degrees) < kLeast_deg) return {};
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(),
+                  "the environment is turned by %.1f° about its vertical axis (as rotate_deg does)",
+                  turn.degrees);
+    return {text.data(), turn.remainder};
 }
 
 constexpr std::array<std::pair<bool, const char*>, 2> kRoughnessMistakes{

@@ -106,11 +106,6 @@ std::map<std::string, ProductFile> separate_images(const std::vector<std::filesy
     return images;
 }
 
-LinearPicture as_seen(LinearPicture sphere) {
-    for (glm::dvec3& rgb : sphere.rgb) rgb *= exposure_of_ev100(room_look().ev100);
-    return sphere;
-}
-
 std::string text(const char* format, double value) {
     std::array<char, 64> buffer{};
     std::snprintf(buffer.data(), buffer.size(), format, value);
@@ -150,12 +145,9 @@ LinearPicture converted_sphere(const std::vector<std::filesystem::path>& files, 
     });
 }
 
-Picture seen_in_room(const LinearPicture& sphere) {
-    const LinearPicture linear = as_seen(sphere);
-    Picture picture(linear.width, linear.height);
-    for (int y = 0; y < linear.height; ++y)
-        for (int x = 0; x < linear.width; ++x) put(picture, x, y, linear.at(x, y));
-    return picture;
+LinearPicture as_seen(LinearPicture sphere) {
+    for (glm::dvec3& rgb : sphere.rgb) rgb *= exposure_of_ev100(room_look().ev100);
+    return sphere;
 }
 
 Picture sphere_difference(const LinearPicture& a, const LinearPicture& b) {

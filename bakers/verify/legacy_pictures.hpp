@@ -23,11 +23,11 @@ LinearPicture legacy_sphere(const LegacySet& set, int size);
 /// `separate`; empty if they are of another packing.
 LinearPicture converted_sphere(const std::vector<std::filesystem::path>& files, int size);
 
-/// A sphere as the room's camera sees it, sRGB.
-Picture seen_in_room(const LinearPicture& sphere);
+/// A sphere as the room's camera exposes it: 1 saturates the sensor.
+LinearPicture as_seen(LinearPicture sphere);
 /// |a - b| in luminance over b's mean luminance, in false colour from .1 % (dark) to 100 %, logarithmic.
 Picture sphere_difference(const LinearPicture& a, const LinearPicture& b);
-/// Mean LDR-FLIP of both as the camera sees them.
+/// Mean LDR-FLIP of both as_seen().
 double sphere_flip(const LinearPicture& a, const LinearPicture& b);
 
 /// The first light of a conversion's document (schemas/lights.schema.json) as SVG: illuminance in stops over

@@ -56,7 +56,7 @@ pre{background:var(--panel);border:1px solid var(--line);border-radius:8px;paddi
 dl{display:grid;grid-template-columns:max-content 1fr;gap:6px 18px;font-size:14px;margin:12px 0;max-width:90ch}
 dt{color:var(--soft)}
 dd{margin:0}
-@media(max-width:600px){main{padding:24px 16px 48px}h1{font-size:25px}h2{margin-top:44px}dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:8px}}
+@media(max-width:600px){main{padding:24px 16px 48px}td:first-child{white-space:normal;min-width:8em}h1{font-size:25px}h2{margin-top:44px}dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:8px}}
 )css";
 
 std::string to_chars(double value, std::chars_format format, int precision) {

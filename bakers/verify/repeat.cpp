@@ -35,20 +35,15 @@ int binomial_rank(int n) {
 class Rounds {
   public:
     Rounds(std::span<const RepeatTask> tasks, const RepeatLimits& limits)
-        : tasks_(tasks), limits_(limits), measured_(tasks.size()), times_(tasks.size(), 1) {
-        for (std::size_t i = 0; i < tasks_.size(); ++i) {
-            const double once = tasks_[i].cost(1);
-            if (once < limits_.least_s)
-                times_[i] = static_cast<int>(
-                    std::min<double>(kMostInOneGo, std::ceil(limits_.least_s / std::max(once, 1e-9))));
-        }
+        : tasks_(tasks), limits_(limits), measured_(tasks.size()) {
+        for (const RepeatTask& task : tasks_) times_.push_back(times_of(task));
     }
 
     /// Measures every task that isn't known; returns how many are.
     std::size_t add() {
         std::vector<std::size_t> order;
         for (std::size_t i = 0; i < tasks_.size(); ++i)
-            if (!is_known(i)) order.push_back(i);
+            if (!is_done(i)) order.push_back(i);
         if (round_++ % 2) std::ranges::reverse(order);
         // Together with those of the same base: a stretch of its own for each.
         std::ranges::stable_sort(order, {}, [&](std::size_t i) { return tasks_[i].base; });
@@ -59,7 +54,7 @@ class Rounds {
             k = end;
         }
         std::size_t known = 0;
-        for (std::size_t i = 0; i < tasks_.size(); ++i) known += is_known(i);
+        for (std::size_t i = 0; i < tasks_.size(); ++i) known += is_done(i);
         return known;
     }
 
@@ -71,6 +66,19 @@ class Rounds {
     struct Measured {
         std::vector<double> seconds, ratios;
     };
+
+    /// How often to repeat a task. Its first runs fill caches and tell too little: one that is short is asked
+    /// again with what they tell.
+    int times_of(const RepeatTask& task) const {
+        double once = task.cost(1);
+        int times = 1;
+        while (once * times < limits_.least_s && times < kMostInOneGo) {
+            const double wanted = std::ceil(limits_.least_s / std::max(once, 1e-9));
+            times = static_cast<int>(std::clamp<double>(wanted, times + 1, kMostInOneGo));
+            once = task.cost(times);
+        }
+        return times;
+    }
 
     /// The base before, after, and among the others as often as they have taken some times its own time.
     void measure_group(std::size_t base, std::span<const std::size_t> group) {
@@ -102,11 +110,9 @@ class Rounds {
         return seconds;
     }
 
-    bool is_known(std::size_t task) const {
-        if (static_cast<int>(measured_[task].seconds.size()) < limits_.fewest) return false;
-        const Timing now = timing(task);
-        return now.seconds.known_to() <= limits_.known_to &&
-               (tasks_[task].base == task || now.ratio.known_to() <= limits_.ratio_known_to);
+    bool is_done(std::size_t task) const {
+        return static_cast<int>(measured_[task].seconds.size()) >= limits_.fewest &&
+               is_known(timing(task), limits_);
     }
 
     /// A base is measured again after that many seconds, but takes no more than a share of the whole.
@@ -134,6 +140,10 @@ Median median_of(std::vector<double> values) {
     if (median.value > 0)
         median.spread = (quantile(values, .75) - quantile(values, .25)) / (2 * median.value);
     return median;
+}
+
+bool is_known(const Timing& timing, const RepeatLimits& limits) {
+    return timing.ratio.known_to() <= limits.known_to;
 }
 
 std::vector<Timing> repeat_until_known(std::span<const RepeatTask> tasks, const RepeatLimits& limits,

@@ -1,9 +1,9 @@
 #pragma once
 // Times that are known: measured again and again, in turn, until their medians stand.
 //
-// A processor's speed drifts, and other work comes and goes. So every round measures all tasks once, every
-// other round in the opposite order, and a task's base right before and after it: a ratio is to the mean of
-// both, and the median of those of all rounds is what is told.
+// A processor's speed drifts, and other work comes and goes: seconds are never known to better than that. So
+// every round measures all tasks once, every other round in the opposite order, and a task's base right
+// before and after it: a ratio is to the mean of both, and the median of those of all rounds is what is told.
 
 #include <cstddef>
 #include <functional>
@@ -37,11 +37,10 @@ struct RepeatTask {
 };
 
 struct RepeatLimits {
-    double known_to = .05;        ///< share of the median of the seconds
-    double ratio_known_to = .03;  ///< of the ratio: two such studies then agree within .1
-    int fewest = 7, most = 60;    ///< rounds
-    double budget_s = 60;         ///< wall; no round beyond `fewest` starts later
-    double least_s = .01;         ///< a shorter task is measured several times in one go
+    double known_to = .05;      ///< share of the median of the ratios: two such studies then agree within .1
+    int fewest = 7, most = 60;  ///< rounds
+    double budget_s = 60;       ///< wall; no round beyond `fewest` starts later
+    double least_s = .02;       ///< a shorter task is measured several times in one go
 };
 
 struct Timing {
@@ -52,9 +51,12 @@ struct Timing {
 /// Is told after every round: rounds done, tasks known, seconds gone.
 using RepeatProgress = std::function<void(int round, std::size_t known, double wall_s)>;
 
-/// Measures all tasks until each is known, or the limits end it. The first measurement of each is a warm-up
-/// and tells how often to repeat a short one. A task that is known is left out of later rounds, unless it is
-/// the base of one that isn't. `wall_s` is a clock.
+/// Whether a ratio is known as the limits ask. A base's own is 1.
+bool is_known(const Timing& timing, const RepeatLimits& limits);
+
+/// Measures all tasks until each is known, or the limits end it. The first measurement of each is a warm-up;
+/// a short one is then measured until it is known how often to repeat it. A task that is known is left out of
+/// later rounds, unless it is the base of one that isn't. `wall_s` is a clock.
 std::vector<Timing> repeat_until_known(std::span<const RepeatTask> tasks, const RepeatLimits& limits,
                                        const std::function<double()>& wall_s,
                                        const RepeatProgress& progress = {});

@@ -93,6 +93,7 @@ struct Study {
     std::vector<StudiedCase> cases;
     int rounds = 0;
     std::size_t points = 0, known = 0;  ///< timed, and known as the limits ask
+    double known_to = 0;                ///< what they ask
     double wall_s = 0;
 };
 
@@ -120,6 +121,13 @@ Json study_json(const Study& study);
 
 /// How well a median is known, in per cent: "4.20"; "?" of fewer than six values.
 std::string known_percent(const Median& median);
+
+/// "5 %"
+std::string whole_percent(double share);
+
+/// Settings whose ratio of time is known less well than the limits asked, the least known first:
+/// "probe_noise, is 8: ± 9.10 %".
+std::vector<std::string> unknown_ratios(const Study& study);
 
 /// A median of a study's document: value, interval, spread, count.
 Json median_json(const Median& median);

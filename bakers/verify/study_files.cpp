@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <utility>
 
 #include "bakers/job/json_text.hpp"
 #include "bakers/run/run.hpp"
@@ -16,6 +18,7 @@ namespace pbrbake::verify {
 namespace {
 
 constexpr std::size_t kWidth = 80;
+constexpr std::size_t kMostUnknown = 8;  // named below the table
 
 /// JSON has no infinity.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -172,6 +175,24 @@ std::string known_percent(const Median& median) {
     return std::isfinite(known) ? number(known) : "?";
 }
 
+std::string whole_percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
+
+std::vector<std::string> unknown_ratios(const Study& study) {
+    std::vector<std::pair<double, std::string>> unknown;
+    for (const StudiedCase& studied : study.cases)
+        for (const StudyPoint& point : studied.points) {
+            const Median& ratio = point.timing.ratio;
+            if (!point.failure.empty() || ratio.known_to() <= study.known_to) continue;
+            unknown.emplace_back(ratio.known_to(),
+                                 studied.asked.name + ", " + studied.asked.series[point.series].name + " " +
+                                     point.step.label + ": ± " + known_percent(ratio) + " %");
+        }
+    std::ranges::stable_sort(unknown, std::greater<>(), &std::pair<double, std::string>::first);
+    std::vector<std::string> lines;
+    for (auto& [known_to, line] : unknown) lines.push_back(std::move(line));
+    return lines;
+}
+
 Json median_json(const Median& median) {
     return {{"median", median.value},
             {"interval", {median.low, finite(median.high)}},
@@ -241,9 +262,15 @@ std::string study_table(const Study& study) {
     std::string text = "What accuracy costs. " + machine.processor.substr(0, kWidth - 30) + "\n" +
                        "time: CPU of the bake on one thread, as a ratio; ±%: how well that is known\n\n";
     for (const StudiedCase& studied : study.cases) text += table_of(studied);
-    return text + std::to_string(study.known) + " of " + std::to_string(study.points) +
-           " times known to 5 % after " + std::to_string(study.rounds) + " rounds, " + number(study.wall_s) +
-           " s\n";
+    text += std::to_string(study.known) + " of " + std::to_string(study.points) + " ratios known to " +
+            whole_percent(study.known_to) + " after " + std::to_string(study.rounds) + " rounds, " +
+            number(study.wall_s) + " s\n";
+    const std::vector<std::string> unknown = unknown_ratios(study);
+    const std::size_t shown = std::min(unknown.size(), kMostUnknown);
+    for (std::size_t i = 0; i < shown; ++i) text += (i ? "  " : "not known so well:\n  ") + unknown[i] + "\n";
+    if (shown < unknown.size())
+        text += "  and " + std::to_string(unknown.size() - shown) + " more: ±% above\n";
+    return text;
 }
 
 }  // namespace pbrbake::verify

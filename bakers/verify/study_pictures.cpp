@@ -181,8 +181,8 @@ std::vector<PictureBook::Tile> PictureBook::before_and_after(
         found = legacy_spheres_.emplace(set.name, legacy_sphere(set, kSphere)).first;
     const LinearPicture &before = found->second, after = converted_sphere(files, kSphere);
     if (after.rgb.empty()) return {};
-    return {{image(seen_in_room(before), 1, "legacy"), "before"},
-            {image(seen_in_room(after), 1, "converted"), "after"},
+    return {{image(display_(as_seen(before)), 1, "legacy"), "before"},
+            {image(display_(as_seen(after)), 1, "converted"), "after"},
             {image(sphere_difference(after, before), 1, "difference"), "difference"},
             {"<small>FLIP " + number(sphere_flip(after, before)) + "</small>", ""}};
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bakers/verify/display_transform.hpp"
 #include "bakers/verify/legacy_pictures.hpp"
 #include "bakers/verify/study.hpp"
 
@@ -24,6 +25,9 @@ class PictureBook {
     void take(const StudiedCase& studied, const StudyPoint& point, const BakedImage& product,
               const BakedImage* reference, const std::vector<std::filesystem::path>& files);
 
+    /// What spheres of legacy sets go through.
+    const char* display_name() const { return display_.name(); }
+
     /// The pictures of a case as HTML, a row a series; "" if there are none.
     std::string html(const StudiedCase& studied) const;
 
@@ -37,6 +41,7 @@ class PictureBook {
     void keep(const Key& key, std::vector<Tile> tiles);
     std::vector<Tile> before_and_after(const LegacySet& set, const std::vector<std::filesystem::path>& files);
 
+    DisplayTransform display_;
     std::size_t most_bytes_, bytes_ = 0;
     std::map<Key, std::vector<Tile>> tiles_;
     std::map<std::string, LinearPicture> legacy_spheres_;  ///< by the set's name

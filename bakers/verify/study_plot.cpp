@@ -17,7 +17,7 @@ constexpr double kLegendRow = 20;
 constexpr std::string_view kStyle = R"css(
 :root,svg{--c0:#0b62a8;--c1:#c2410c;--c2:#15803d;--c3:#7e22ce;--c4:#b45309;--c5:#0e7490;--c6:#be185d;--c7:#4d7c0f;--c8:#475569}
 @media(prefers-color-scheme:dark){:root,svg{--c0:#7cbcf4;--c1:#fb923c;--c2:#4ade80;--c3:#c084fc;--c4:#facc15;--c5:#22d3ee;--c6:#f472b6;--c7:#a3e635;--c8:#cbd5e1}}
-.plot{width:100%;height:auto;font:12px system-ui,-apple-system,"Segoe UI",Roboto,"Liberation Sans",sans-serif}
+.plot{width:100%;min-width:560px;height:auto;font:12px system-ui,-apple-system,"Segoe UI",Roboto,"Liberation Sans",sans-serif}
 .plot text{fill:var(--soft)}
 .plot .grid{stroke:var(--line);stroke-width:1}
 .plot .one{stroke:var(--soft);stroke-width:1;stroke-dasharray:2 3}

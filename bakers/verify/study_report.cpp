@@ -133,30 +133,31 @@ std::string point_table(const StudiedCase& studied) {
            table.html() + "</details>\n";
 }
 
+std::string picture_words(const StudiedCase& studied, const PictureBook& pictures) {
+    const std::string kind = studied.asked.bake["kind"].get<std::string>();
+    if (kind == "light")
+        return "Illuminance in stops over distance, both logarithmic: broad the source's law, blue the light "
+               "that was fitted; below, red, their difference.";
+    if (kind == "texture" && !studied.asked.reference)
+        return "A sphere in the built-in room: as the old renderer shades the maps; as the converted ones "
+               "are "
+               "shaded (Lambert and GGX, scattered once); their difference in luminance over the mean, from "
+               "dark (0.1 % and less) to light (100 %), and the mean LDR-FLIP. Both sum over the same 64 × "
+               "32 "
+               "lights, so that lobes alone differ. Spheres go through " +
+               std::string(pictures.display_name()) + "; FLIP is of the exposed values before that.";
+    if (kind == "probe" && studied.asked.reference)
+        return "Each step: a filtered level unfolded; its difference from the reference, over the mean, from "
+               "dark (0.1 % and less) to light (100 %); an aluminium ball of perceptual roughness 1/3 by the "
+               "split sum.";
+    return "Channels as colours, each over its largest value; of large products every nth texel.";
+}
+
 std::string pictures_html(const StudiedCase& studied, const PictureBook& pictures) {
     const std::string html = pictures.html(studied);
     if (html.empty()) return "";
-    const std::string kind = studied.asked.bake["kind"].get<std::string>();
-    const std::string words =
-        kind == "light" ? "Illuminance in stops over distance, both logarithmic: broad the source's law, "
-                          "blue the light that "
-                          "was fitted; below, red, their difference."
-        : kind == "texture" && !studied.asked.reference
-            ? "A sphere in the built-in room: as the old renderer shades the maps; as the converted ones are "
-              "shaded "
-              "(Lambert and GGX, scattered once); their difference in luminance over the mean, from dark "
-              "(0.1 % and "
-              "less) to light (100 %), and the mean LDR-FLIP. Both sum over the same 64 × 32 lights, so that "
-              "lobes "
-              "alone differ. sRGB."
-        : kind == "probe" && studied.asked.reference
-            ? "Each step: a filtered level unfolded; its difference from the reference, over the mean, from "
-              "dark "
-              "(0.1 % and less) to light (100 %); an aluminium ball of perceptual roughness 1/3 by the split "
-              "sum."
-            : "Channels as colours, each over its largest value; of large products every nth texel.";
-    return "<details open><summary>Pictures at each step of the dial</summary>\n<p class=soft>" + words +
-           "</p>\n" + html + "</details>\n";
+    return "<details open><summary>Pictures at each step of the dial</summary>\n<p class=soft>" +
+           picture_words(studied, pictures) + "</p>\n" + html + "</details>\n";
 }
 
 std::string knee_text(const StudiedCase& studied) {
@@ -178,7 +179,7 @@ std::string reproduce(const StudiedCase& studied) {
 std::string case_html(const StudiedCase& studied, const PictureBook& pictures) {
     std::string html = "<section id=\"" + escaped(studied.asked.name) + "\"><h2>" +
                        escaped(studied.asked.title) + "</h2>\n<p>" + escaped(studied.asked.about) + "</p>\n" +
-                       plot_svg(studied) + legend(studied);
+                       "<div class=wide>" + plot_svg(studied) + "</div>" + legend(studied);
     html +=
         "<p class=soft>Error: <code>" + escaped(studied.metric) + "</code>, " + escaped(studied.truth) + ". ";
     if (studied.reference_cpu_s > 0)
@@ -225,6 +226,16 @@ std::string summary(const Study& study) {
            table.html();
 }
 
+/// What the time did not suffice for.
+std::string unknown_html(const Study& study) {
+    const std::vector<std::string> unknown = unknown_ratios(study);
+    if (unknown.empty()) return "";
+    std::string html = "<details><summary>" + std::to_string(unknown.size()) + " ratios are not known to " +
+                       whole_percent(study.known_to) + "</summary>\n<p class=soft>";
+    for (const std::string& line : unknown) html += escaped(line) + "<br>";
+    return html + "</p></details>\n";
+}
+
 std::string fact(const std::string& value, const std::string& name) {
     return "<li><b>" + value + "</b>" + name + "</li>";
 }
@@ -235,10 +246,9 @@ std::string method_text(const std::string& command) {
            "error taken from the stored values as they decode. Then the bake stages of all settings were "
            "timed "
            "in turn, on one thread, in CPU time: a warm-up, then rounds in alternating order until the "
-           "median of "
-           "each was known to 5 % and its ratio to 3 % (95 % intervals by order statistics), or the time was "
-           "up. "
-           "A ratio is the median of the ratios of single rounds, so that a machine that drifts changes "
+           "ratio "
+           "of each was known to 5 % (95 % intervals by order statistics), or the time was up. A ratio is "
+           "the median of those to the base right before and after, so that a machine that drifts changes "
            "both. "
            "Ratios carry over to other machines; milliseconds are of the one named above.</p>\n"
            "<p>A law is fitted to a method's points above the floor: error = c (t − t₀)<sup>−p</sup>, t₀ "
@@ -261,12 +271,14 @@ std::string study_page(const Study& study, const PictureBook& pictures, const st
         "</style>\n<h1>What accuracy costs</h1>\n<p class=lead>Error against CPU time of every "
         "method at every setting, each against a reference that is better than all of them.</p>\n";
     body += "<ul class=facts>" + fact(std::to_string(study.cases.size()), "cases") +
-            fact(std::to_string(study.points), "settings, " + std::to_string(study.known) + " known to 5 %") +
+            fact(std::to_string(study.points),
+                 std::to_string(study.known) + " of their times known to " + whole_percent(study.known_to)) +
             fact(std::to_string(study.rounds), "rounds of times") +
             fact(number(study.wall_s / 60) + " min", "in all") +
             fact(std::to_string(machine.threads) + " × ",
                  escaped(machine.processor) + ", " + escaped(machine.compiler)) +
-            fact(escaped(std::string(run::tool_version()).substr(8)), "version of pbrbake") + "</ul>\n";
+            fact(escaped(std::string(run::tool_version()).substr(8)), "version of pbrbake") + "</ul>\n" +
+            unknown_html(study);
     if (!study.cases.empty()) body += summary(study);
     for (const StudiedCase& studied : study.cases) body += case_html(studied, pictures);
     body += more + method_text(command) + "<script>" + std::string(kScript) + "</script>\n";

@@ -68,7 +68,9 @@ class StudyRun {
     Study run() {
         const double start = wall_seconds();
         for (std::size_t i = 0; i < study_.cases.size(); ++i) bake_case(i);
-        time_all();
+        RepeatLimits limits = options_.limits;
+        limits.budget_s -= wall_seconds() - start;
+        time_all(limits);
         for (StudiedCase& studied : study_.cases) judge(studied);
         study_.wall_s = wall_seconds() - start;
         return std::move(study_);
@@ -217,7 +219,7 @@ class StudyRun {
             studied.floor = floor->second;
     }
 
-    void time_all() {
+    void time_all(const RepeatLimits& limits) {
         std::vector<std::size_t> base_task(study_.cases.size());
         for (std::size_t i = 0; i < timed_.size(); ++i)
             if (timed_[i].point == study_.cases[timed_[i].studied].base) base_task[timed_[i].studied] = i;
@@ -232,23 +234,24 @@ class StudyRun {
                      return cpu / times;
                  },
                  base_task[timed.studied]});
-        const std::vector<Timing> timings = repeat_until_known(
-            tasks, options_.limits, wall_seconds, [&](int round, std::size_t known, double wall_s) {
+        const std::vector<Timing> timings =
+            repeat_until_known(tasks, limits, wall_seconds, [&](int round, std::size_t known, double wall_s) {
                 study_.rounds = round;
                 study_.known = known;
                 tell("round " + std::to_string(round) + ": " + std::to_string(known) + " of " +
                      std::to_string(tasks.size()) + " times known, " + std::to_string(std::lround(wall_s)) +
-                     " s; " + time_left(round, wall_s));
+                     " s; " + time_left(limits, round, wall_s));
             });
         study_.points = tasks.size();
+        study_.known_to = limits.known_to;
         for (std::size_t i = 0; i < timed_.size(); ++i)
             study_.cases[timed_[i].studied].points[timed_[i].point].timing = timings[i];
     }
 
     /// Of the rounds of times: how much longer they may take.
-    std::string time_left(int round, double wall_s) const {
-        const double fewest = wall_s * options_.limits.fewest / round;
-        const double last = std::max(options_.limits.budget_s, fewest) + wall_s / round;
+    static std::string time_left(const RepeatLimits& limits, int round, double wall_s) {
+        const double fewest = wall_s * limits.fewest / round;
+        const double last = std::max(limits.budget_s, fewest) + wall_s / round;
         return "at most " + std::to_string(std::lround(std::max(0.0, last - wall_s))) + " s more";
     }
 

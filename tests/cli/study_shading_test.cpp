@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+
 #include "bakers/job/json_text.hpp"
 #include "tests/cli/program.hpp"
 
@@ -23,6 +26,23 @@ TEST(StudyShading, WritesAPageAndFigures) {
             (scene["shading"] == "split_sum" ? mirrored : dominant) = scene["errors"].back()["relative_rms"];
     EXPECT_GT(mirrored, 0.2);
     EXPECT_LT(dominant, 0.8 * mirrored);
+}
+
+TEST(StudyShading, WithoutOpenColorIOPicturesAreSrgb) {
+    // A copy of the program in a tree with the other module alone, which pictures need.
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder;
+    for (const char* name : {"bin", "lib/pbrbake"}) fs::create_directories(folder / name);
+    fs::copy_file(PBRBAKE_PROGRAM, folder / "bin/pbrbake");
+    const fs::path module = "lib/pbrbake/pbrbake_oiio.so";
+    fs::create_symlink(fs::path(PBRBAKE_PROGRAM).parent_path().parent_path() / module,
+                       folder / module.string());
+    const std::string command = (folder / "bin/pbrbake").string() + " study --shading --size 8 -o " +
+                                (folder / "study").string() + " > " + (folder / "out").string();
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const std::string page = read_file(folder / "study/index.html");
+    if (page.find("by OpenColorIO") != std::string::npos) GTEST_SKIP() << "the modules are installed";
+    EXPECT_THAT(page, testing::HasSubstr("pictures go through sRGB, clipped (OpenColorIO is not installed)"));
 }
 
 TEST(StudyShading, KeepsAJobOfSomeoneElse) {

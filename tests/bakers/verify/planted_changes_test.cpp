@@ -136,6 +136,30 @@ TEST(PlantedChange, OneTurnedFaceIsNamed) {
                 HasSubstr("face -Y is turned by 180"));
 }
 
+TEST(PlantedChange, ATurnOfTheEnvironmentIsNamedAsABakeHasIt) {
+    const auto file = [](int degrees) { return "turned_" + std::to_string(degrees) + ".ktx2"; };
+    Json bakes = Json::array();
+    for (const int degrees : {0, 3, -40})
+        bakes.push_back({{"kind", "probe"},
+                         {"name", "turned_" + std::to_string(degrees)},
+                         {"source", "builtin:indoor"},
+                         {"size", 32},
+                         {"levels", 4},
+                         {"format", "ktx2"},
+                         {"rotate_deg", degrees},
+                         {"certify", "none"}});
+    const TemporaryFolder folder;
+    const job::Job job = job::load(
+        folder.write("job.json", Json{{"version", 1}, {"output", "baked"}, {"bakes", bakes}}.dump()));
+    ASSERT_EQ(run::run(std::span(&job, 1), {}).code, ExitCode::done);
+    const auto line = [&](int degrees) {
+        const auto baked = folder / "baked";
+        return verdict_line(compare(baked / file(degrees), baked / file(0), defaults()).products.front());
+    };
+    EXPECT_THAT(line(3), HasSubstr("the environment is turned by 3.0° about its vertical axis"));
+    EXPECT_THAT(line(-40), HasSubstr("the environment is turned by -40.0° about its vertical axis"));
+}
+
 TEST(PlantedChange, RoughnessSquaredTwiceInATableIsNamed) {
     const auto remapped = [](const std::function<double(double)>& map) {
         return each_texel([map](const Image& old, int level, int face, int y, int x, float* texel) {
@@ -229,7 +253,8 @@ TEST(PlantedChange, OnePercentOfEnergyIsNamed) {
         const ProductComparison product = changed(name, loss);
         EXPECT_NEAR(product.worst.energy_change, 0.01, 2e-4);  // a half's rounding
         EXPECT_THAT(verdict_line(product), HasSubstr("energy change 0.0"));
-        EXPECT_THAT(verdict_line(product), HasSubstr("looks like: values are 0.9900 times the reference's ("));
+        EXPECT_THAT(verdict_line(product),
+                    HasSubstr("looks like: values are 0.9900 times the reference's ("));
     }
 }
 

@@ -80,8 +80,7 @@ TEST(Repeat, GoesOnWithWhatIsNoisyAndItsBaseAlone) {
     EXPECT_EQ(timings[3].seconds.count, 7);
     EXPECT_GT(timings[2].seconds.count, 20);
     EXPECT_GE(timings[0].seconds.count, 2 * timings[2].seconds.count);  // before and after
-    EXPECT_LE(timings[2].seconds.known_to(), .05);
-    EXPECT_LE(timings[2].ratio.known_to(), .03);
+    EXPECT_LE(timings[2].ratio.known_to(), .05);
 }
 
 TEST(Repeat, RatiosStandOnAMachineThatDrifts) {
@@ -95,7 +94,7 @@ TEST(Repeat, RatiosStandOnAMachineThatDrifts) {
     const std::vector<RepeatTask> tasks{{drifting(1), 0}, {drifting(2.5), 0}};
     const auto timings = repeat_until_known(tasks, {.most = 200, .budget_s = 1e9}, machine.clock());
     EXPECT_NEAR(timings[1].ratio.value, 2.5, .1);
-    EXPECT_LE(timings[1].ratio.known_to(), .03);
+    EXPECT_LE(timings[1].ratio.known_to(), .05);
 }
 
 TEST(Repeat, RatiosStandBesideWorkThatComesAndGoes) {
@@ -116,23 +115,25 @@ TEST(Repeat, RatiosStandBesideWorkThatComesAndGoes) {
 
 TEST(Repeat, KeepsToItsBudgetButNotBelowTheFewestRounds) {
     FakeMachine machine;
-    const std::vector<RepeatTask> tasks{machine.task(1, .5, 0)};
-    EXPECT_EQ(repeat_until_known(tasks, {.budget_s = 3}, machine.clock())[0].seconds.count, 7);
+    const std::vector<RepeatTask> tasks{machine.task(1, .5, 0), machine.task(1, .5, 0)};
+    EXPECT_EQ(repeat_until_known(tasks, {.budget_s = 3}, machine.clock())[1].seconds.count, 7);
     machine.now_s = 0;
-    EXPECT_EQ(repeat_until_known(tasks, {.known_to = 0, .budget_s = 1e9}, machine.clock())[0].seconds.count,
+    EXPECT_EQ(repeat_until_known(tasks, {.known_to = 0, .budget_s = 1e9}, machine.clock())[1].seconds.count,
               60);
 }
 
 TEST(Repeat, MeasuresShortTasksManyTimesInOneGo) {
     FakeMachine machine;
-    int most = 0;
+    std::vector<int> asked;
     const std::vector<RepeatTask> tasks{{[&](int times) {
-                                             most = std::max(most, times);
-                                             return machine.run(1e-4, 0, times);
+                                             asked.push_back(times);
+                                             return machine.run(asked.size() == 1 ? 1e-2 : 1e-4, 0, times);
                                          },
                                          0}};
     const auto timings = repeat_until_known(tasks, {}, machine.clock());
-    EXPECT_EQ(most, 100);
+    EXPECT_EQ(asked[1], 2);  // as the first run, which is cold, has it
+    EXPECT_EQ(asked[2], 200);
+    EXPECT_EQ(asked.back(), 200);
     EXPECT_DOUBLE_EQ(timings[0].seconds.value, 1e-4);
 }
 
