@@ -293,7 +293,7 @@ TEST(GltfLights, SayWhereTheyBreak) {
         HasSubstr("below 0"));
     using namespace std::string_literals;
     EXPECT_THAT(refusal_of_lights("glTF\2\0\0\0\x20\0\0\0\x40\0\0\0JSON{}"s, "a.glb"),
-                HasSubstr("claims 64 bytes"));
+                HasSubstr("claims 32 bytes in all, but has 22"));
 }
 
 TEST(Lights, RefuseWhatIsNoFormatKnown) {
