@@ -8,6 +8,7 @@
 #include "bakers/light/light.hpp"
 #include "bakers/params.hpp"
 #include "bakers/probe/probe.hpp"
+#include "bakers/texture/scene.hpp"
 #include "bakers/texture/texture.hpp"
 
 namespace pbrbake {
@@ -39,6 +40,25 @@ Baker make_baker(std::string_view kind, int algorithm_version,
             {}};
 }
 
+/// The baker of whole glTF documents. What their materials keep is in these materials' certificates.
+const Baker& scene_baker() {
+    static const Baker baker = [] {
+        Baker scene;
+        scene.kind = "texture";
+        scene.algorithm_version = texture::kAlgorithmVersion;
+        scene.check = [](const Json&) { return std::vector<Mistake>(); };
+        scene.reads = texture::scene_reads;
+        scene.run = [](const Json&, const Inputs& inputs, Context& context) {
+            return texture::bake_scene(inputs, context.product_file());
+        };
+        scene.certify = [](const Json&, const Inputs&, const Product&, Context&) { return Certificate(); };
+        scene.follow = texture::scene_files;
+        scene.documents = [](const Json&) { return std::vector<std::string>{"gltf"}; };
+        return scene;
+    }();
+    return baker;
+}
+
 }  // namespace
 
 std::span<const Baker> bakers() {
@@ -62,6 +82,9 @@ std::span<const Baker> bakers() {
         texture.documents = [](const Json& json) {
             return texture::documents(json.at("format").get<std::string>());
         };
+        texture.joiner = &scene_baker();
+        texture.is_joined = texture::is_scene;
+        texture.part_document = texture::kPartDocument;
         Baker light = make_baker("light", light::kAlgorithmVersion, light::check, light::reads, light::bake,
                                  light::certify);
         light.documents = [](const Json& json) {

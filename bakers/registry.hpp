@@ -34,6 +34,11 @@ struct Baker {
     std::function<std::vector<std::string>(const Json& bake)> images = {};
     /// Suffixes of the documents that a bake will write.
     std::function<std::vector<std::string>(const Json& bake)> documents = {};
+    /// What makes one product of a source as a whole, once its expansions are baked. Its inputs are "source"
+    /// and, of the i-th expansion, the document "part.i".
+    const Baker* joiner = nullptr;
+    std::function<bool(const Json& bake)> is_joined = {};  ///< whether a bake's expansions are
+    std::string_view part_document = {};                   ///< suffix of the document "part.i"
 };
 
 /// All bakers, in the order of their help texts.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,8 @@ struct ReadRequest {
     bool with_alpha = false;                   ///< keeps alpha, where a PNG, TIFF, TGA or JPEG has it
     ReadLimits limits = {};
     bool as_codes = false;  ///< keeps the codes of 8-bit files whose gamut is the working space's
+    /// The picture, where it is inside another file; `path` then is its name in messages. Not an EXR.
+    std::optional<std::vector<std::byte>> bytes = {};
 };
 
 /// Reads an equirect (HDR, EXR, PNG, TIFF, TGA, JPEG) or a cube map (EXR with an envmap attribute), linear,
@@ -39,7 +42,11 @@ SourceImage read_source(const ReadRequest& request);
 /// Reads a file as its bytes: `bytes`, `name` and `hash` of what is returned. Throws Error(unreadable_input)
 /// for what is absent, no regular file, or above kMaxTextBytes.
 SourceImage read_text_source(const std::filesystem::path& path);
-inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t{64} << 20;
+inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t{512} << 20;  ///< glTF embeds pictures
+
+/// Bytes of a file from `offset` on; of size 0 to its end. Throws Error(unreadable_input) for what is absent,
+/// no regular file, or too short.
+std::vector<std::byte> read_part(const std::filesystem::path& path, std::uint64_t offset, std::uint64_t size);
 
 /// Colour spaces that `colour_space` may name, "auto" first.
 const std::vector<std::string>& colour_spaces();

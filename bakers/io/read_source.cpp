@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <new>
 
 #include "bakers/io/colour.hpp"
@@ -27,22 +28,28 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-/// An EXR is read as it is decoded: stored uncompressed it is as large as its texels, and both together would
-/// double what a bake takes.
-Decoded decode(const File& file, const ReadRequest& request, SourceImage& source) {
-    using namespace std::string_view_literals;
-    const std::string& where = file.where();
-    if (file.size() == 0) throw unreadable(where, "is empty");
-    if (begins_with(file.head(4), "\x76\x2f\x31\x01"sv)) {
-        source.hash = hash_file(request.path);
-        return decode_exr(file, request.limits);
-    }
-    const std::vector<std::byte> bytes = file.head(file.size());
+Decoded decode_bytes(Bytes bytes, const ReadRequest& request, SourceImage& source) {
+    const std::string where = request.path.string();
     source.hash = hash_bytes(bytes.data(), bytes.size());
     if (const auto format = foreign_format(bytes, lower_extension(request.path)))
         return decode_foreign(*format, bytes, where, request.limits, request.with_alpha, request.as_codes);
     throw unreadable(where,
                      "is none of the formats that are read: EXR, HDR (RGBE), PNG, TIFF, TGA (.tga), JPEG");
+}
+
+/// An EXR is read as it is decoded: stored uncompressed it is as large as its texels, and both together would
+/// double what a bake takes.
+Decoded decode(const ReadRequest& request, SourceImage& source) {
+    using namespace std::string_view_literals;
+    if (request.bytes) return decode_bytes(*request.bytes, request, source);
+    // A file's bytes are at most as many as its decoded texels take, but for channels that aren't read.
+    const File file(request.path, request.limits.max_decoded_bytes * 2);
+    if (file.size() == 0) throw unreadable(file.where(), "is empty");
+    if (begins_with(file.head(4), "\x76\x2f\x31\x01"sv)) {
+        source.hash = hash_file(request.path);
+        return decode_exr(file, request.limits);
+    }
+    return decode_bytes(file.head(file.size()), request, source);
 }
 
 /// The encoding that the request or the file states, else the file's type suggests. Nothing: numbers are
@@ -121,6 +128,19 @@ SourceImage read_text_source(const std::filesystem::path& path) {
     return source;
 }
 
+std::vector<std::byte> read_part(const std::filesystem::path& path, std::uint64_t offset,
+                                 std::uint64_t size) {
+    const File file(path, std::numeric_limits<std::uint64_t>::max());
+    const std::uint64_t left = file.size() - std::min(offset, file.size()), wanted = size == 0 ? left : size;
+    if (wanted > left)
+        throw unreadable(file.where(), "has " + std::to_string(file.size()) + " bytes, but " +
+                                           std::to_string(wanted) + " from byte " + std::to_string(offset) +
+                                           " on are asked for");
+    std::vector<std::byte> bytes(static_cast<std::size_t>(wanted));
+    file.read(offset, bytes);
+    return bytes;
+}
+
 SourceImage read_source(const ReadRequest& request) {
     const std::string where = request.path.string();
     const auto working = working_gamut(request.working_space);
@@ -128,9 +148,8 @@ SourceImage read_source(const ReadRequest& request) {
         throw Error(ExitCode::invalid_job, where,
                     "unknown working space '" + request.working_space + "'; allowed: lin_rec709, acescg");
     try {
-        // A file's bytes are at most as many as its decoded texels take, but for channels that aren't read.
         SourceImage source;
-        Decoded decoded = decode(File(request.path, request.limits.max_decoded_bytes * 2), request, source);
+        Decoded decoded = decode(request, source);
         source.units = decoded.units;
 
         const std::optional<Encoding> encoding = resolve_encoding(request, decoded, source);

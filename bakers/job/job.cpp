@@ -43,12 +43,15 @@ class Reading {
         if (document_.contains("bakes") && document_["bakes"].is_array())
             for (std::size_t i = 0; i < document_["bakes"].size(); ++i) {
                 const Origin origin =
-                    origins_.empty() ? Origin{"/bakes/" + std::to_string(i), "", {}, {}} : origins_[i];
+                    origins_.empty() ? Origin{"/bakes/" + std::to_string(i), "", {}, {}, 0} : origins_[i];
                 if (!is_sound(origin.at)) continue;
                 Bake bake = read_bake(document_["bakes"][i], origin);
                 const std::string stem =
                     product.empty() ? bake.name : product.stem().string() + origin.suffix;
                 bake.file = stem + "." + bake.format;
+                const std::size_t parts = std::min(origin.parts, job.bakes.size());
+                join(std::span(job.bakes).last(parts), product.empty() ? job.output : product.parent_path(),
+                     bake);
                 job.bakes.push_back(std::move(bake));
             }
         return job;
@@ -75,22 +78,30 @@ class Reading {
         std::string suffix;  ///< of its name: "_brick", or "" where it stands for itself alone
         std::vector<std::string> warnings;
         std::optional<Error> error;
+        std::size_t parts;  ///< bakes before it that it joins
     };
 
     /// Puts in the place of each bake those that it stands for, as if the job had stated them.
     void expand_bakes() {
         const Json given = std::move(document_["bakes"]);
         document_["bakes"] = Json::array();
-        for (std::size_t i = 0; i < given.size(); ++i)
+        for (std::size_t i = 0; i < given.size(); ++i) {
+            const std::string at = "/bakes/" + std::to_string(i), name = given[i]["name"];
+            std::size_t parts = 0;  // those that can be joined: a source that can't be read has none
             for (Expansion& expansion : expansions(given[i])) {
-                const std::string name = given[i]["name"];
+                parts += expansion.suffix.empty() ? 0 : 1;
                 expansion.bake["name"] =
                     name.substr(0, kLongestName - std::min(kLongestName, expansion.suffix.size())) +
                     expansion.suffix;
-                origins_.push_back({"/bakes/" + std::to_string(i), std::move(expansion.suffix),
-                                    std::move(expansion.warnings), std::move(expansion.error)});
+                origins_.push_back({at, std::move(expansion.suffix), std::move(expansion.warnings),
+                                    std::move(expansion.error), 0});
                 document_["bakes"].push_back(std::move(expansion.bake));
             }
+            const Baker& baker = *find_baker(given[i]["kind"].get_ref<const std::string&>());
+            if (parts == 0 || !baker.joiner || !baker.is_joined(given[i])) continue;
+            origins_.push_back({at, "", {}, {}, parts});
+            document_["bakes"].push_back(given[i]);
+        }
         refuse_fields_of_sources(given);
     }
 
@@ -124,11 +135,22 @@ class Reading {
         }
     }
 
+    /// Has a bake read what is baked before it, in the folder of outputs.
+    static void join(std::span<const Bake> parts, const fs::path& output, Bake& bake) {
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const std::string document =
+                fs::path(parts[i].file).stem().string() + "." + std::string(parts[i].baker->part_document);
+            bake.parts.push_back(parts[i].name);
+            bake.sources.push_back(
+                {{"part." + std::to_string(i), document, "", Read::As::text}, output / document});
+        }
+    }
+
     FileQueries file_queries() const {
         return {[this](const std::string& path) {
                     if (const auto refusal = fence_.refusal(path))
                         throw Error(ExitCode::unreadable_input, path, *refusal);
-                    return read_text(fence_.resolve(path));
+                    return read_text(fence_.resolve(path), kLargestSource);
                 },
                 [this](const std::string& path) { return fence_.find(path); }};
     }
@@ -151,6 +173,11 @@ class Reading {
         bake.certify = read_certify(json["certify"].get<std::string>());
         bake.baker = find_baker(bake.kind);
         read_accuracy(json, at, bake);
+        if (origin.parts > 0) {  // whose certificates are all that there is to certify
+            bake.baker = bake.baker->joiner;
+            bake.accuracy = {"production"};
+            bake.certify = Certify::none;
+        }
         check_name(bake.name, at);
         if (!bake.error)
             for (const Mistake& mistake : bake.baker->check(json)) add(at + mistake.pointer, mistake.message);
@@ -213,15 +240,15 @@ class Reading {
             return;
         }
         const std::string key = read.field.substr(0, read.field.find('.'));  // "source" of "source.px" too
-        if (const auto refusal = fence_.refusal(read.path)) {
+        const Place place = place_of(read.path);
+        if (const auto refusal = fence_.refusal(place.file)) {
             add(at + "/" + key, shown(read.path) + " " + *refusal);
             return;
         }
-        Source source{read, fence_.resolve(read.path)};
-        const fs::path given(read.path);
-        if (given.is_absolute()) {  // only trusted paths are; a record holds no absolute path
-            source.read.path = given.filename().string();
-            bake.params[key] = fs::path(bake.json[key].get<std::string>()).filename().string();
+        Source source{read, fence_.resolve(place.file), place.image};
+        if (fs::path(place.file).is_absolute()) {  // only trusted paths are; a record holds no absolute path
+            source.read.path = place.name();
+            bake.params[key] = place_of(bake.json[key].get<std::string>()).name();
         }
         bake.sources.push_back(std::move(source));
     }

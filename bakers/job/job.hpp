@@ -20,7 +20,8 @@ enum class Certify { none, sampled, full };
 /// A file (or built-in) that a bake reads, found and allowed.
 struct Source {
     Read read;
-    std::filesystem::path file;  ///< empty for "builtin:NAME"
+    std::filesystem::path file;             ///< empty for "builtin:NAME"
+    std::optional<std::size_t> image = {};  ///< of that glTF file, in place of the file itself
 };
 
 /// One bake, ready to run.
@@ -37,6 +38,7 @@ struct Bake {
     std::vector<Source> sources;
     std::vector<std::string> warnings;  ///< of the source that filled it in
     std::optional<Error> error;         ///< why it fails though the job is sound: a source can't be read
+    std::vector<std::string> parts;     ///< names of the bakes that it joins, which come before it
 };
 
 /// "X_normal.png" for image "normal" of a bake whose first file is X.png or the document X.gltf.

@@ -83,6 +83,32 @@ std::string position(const std::string& file, std::string_view text, std::size_t
     return file + ":" + std::to_string(line) + ":" + std::to_string(column);
 }
 
+/// Reads up to the number that is out of range: unlike a parse, this tells where.
+class NumberSearch final : public nlohmann::json_sax<Json> {
+  public:
+    std::size_t byte() const { return byte_; }
+
+    bool null() override { return true; }
+    bool boolean(bool) override { return true; }
+    bool number_integer(number_integer_t) override { return true; }
+    bool number_unsigned(number_unsigned_t) override { return true; }
+    bool number_float(number_float_t, const string_t&) override { return true; }
+    bool string(string_t&) override { return true; }
+    bool binary(binary_t&) override { return true; }
+    bool start_object(std::size_t) override { return true; }
+    bool key(string_t&) override { return true; }
+    bool end_object() override { return true; }
+    bool start_array(std::size_t) override { return true; }
+    bool end_array() override { return true; }
+    bool parse_error(std::size_t end, const std::string& token, const Json::exception&) override {
+        byte_ = end - std::min(end, token.size()) + 1;
+        return false;
+    }
+
+  private:
+    std::size_t byte_ = 0;  ///< the first of the number, counted from 1
+};
+
 /// nlohmann's message without its own prefix and position: "while parsing value - unexpected ']'; expected
 /// …".
 std::string reason(std::string_view what) {
@@ -101,11 +127,14 @@ Json parse_json(std::string_view text, const std::string& file, int deepest) {
         throw Error(ExitCode::invalid_job, position(file, text, error.byte),
                     "not JSON: " + reason(error.what()));
     } catch (const Json::exception& error) {  // a number out of range
-        throw Error(ExitCode::invalid_job, file, "not JSON: " + reason(error.what()));
+        NumberSearch search;
+        Json::sax_parse(text, &search);
+        throw Error(ExitCode::invalid_job, position(file, text, search.byte()),
+                    "not JSON: " + reason(error.what()));
     }
 }
 
-std::string read_text(const std::filesystem::path& file) {
+std::string read_text(const std::filesystem::path& file, std::size_t largest) {
     std::error_code status_error;
     const auto status = std::filesystem::status(file, status_error);
     if (!std::filesystem::exists(status))
@@ -118,11 +147,11 @@ std::string read_text(const std::filesystem::path& file) {
                     "cannot be opened: " + std::generic_category().message(errno));
     std::string text;
     std::array<char, 65536> piece;
-    while (text.size() <= kLargestText && (stream.read(piece.data(), piece.size()) || stream.gcount() > 0))
+    while (text.size() <= largest && (stream.read(piece.data(), piece.size()) || stream.gcount() > 0))
         text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kLargestText)
+    if (text.size() > largest)
         throw Error(ExitCode::unreadable_input, file.string(),
-                    "larger than the " + std::to_string(kLargestText >> 20) + " MiB a JSON file may have");
+                    "larger than the " + std::to_string(largest >> 20) + " MiB that it may have");
     return text;
 }
 

@@ -12,13 +12,15 @@ namespace pbrbake::job {
 /// Bounds on a JSON text, so that hostile files end early.
 inline constexpr std::size_t kLargestText = std::size_t{16} << 20;  ///< bytes
 inline constexpr int kDeepestNesting = 32;
+/// Of a source, which may embed pictures; as io's kMaxTextBytes.
+inline constexpr std::size_t kLargestSource = std::size_t{512} << 20;
 
 /// Throws Error(invalid_job, "file:line:column", …), or "file#pointer" for a key given twice.
 Json parse_json(std::string_view text, const std::string& file, int deepest = kDeepestNesting);
 
 /// A file's bytes. Throws Error(unreadable_input) naming it if it is absent, not a file, or larger than
-/// kLargestText.
-std::string read_text(const std::filesystem::path& file);
+/// `largest` bytes.
+std::string read_text(const std::filesystem::path& file, std::size_t largest = kLargestText);
 
 /// Two spaces an indent and a newline at the end; strings that aren't UTF-8 get replacement characters.
 std::string to_text(const Json& value);

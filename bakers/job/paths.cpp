@@ -1,6 +1,8 @@
 #include "bakers/job/paths.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <string_view>
 #include <system_error>
 
 namespace pbrbake::job {
@@ -38,7 +40,26 @@ std::string nearest_entry(const fs::path& folder, const std::string& name) {
     return best;
 }
 
+constexpr std::string_view kInside = "#/images/";
+
 }  // namespace
+
+std::string Place::name() const {
+    const std::string file_name = fs::path(file).filename().string();
+    return image ? file_name + std::string(kInside) + std::to_string(*image) : file_name;
+}
+
+Place place_of(const std::string& path) {
+    const std::size_t at = path.rfind(kInside), begin = at + kInside.size();
+    std::size_t image = 0;
+    if (at != path.npos && begin < path.size()) {
+        const char* end = path.data() + path.size();
+        if (const auto [stop, error] = std::from_chars(path.data() + begin, end, image);
+            stop == end && error == std::errc())
+            return {path.substr(0, at), image};
+    }
+    return {path, {}};
+}
 
 Fence::Fence(fs::path folder, const std::vector<fs::path>& roots)
     : folder_(std::move(folder)), fenced_(true) {

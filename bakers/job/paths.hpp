@@ -8,6 +8,16 @@
 
 namespace pbrbake::job {
 
+/// What a path names: a file, or a picture inside a glTF file, "scene.glb#/images/3".
+struct Place {
+    std::string file;                  ///< "scene.glb"
+    std::optional<std::size_t> image;  ///< 3
+
+    /// The path without its folder: records hold none that is absolute.
+    std::string name() const;
+};
+Place place_of(const std::string& path);
+
 /// Resolves paths against a folder, and keeps them inside it and the roots, symbolic links followed.
 class Fence {
   public:

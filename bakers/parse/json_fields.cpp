@@ -20,7 +20,17 @@ std::string joined(const std::string& place, std::string_view key) {
     return place + (place.find('#') == std::string::npos ? "#/" : "/") + std::string(key);
 }
 
+constexpr int kDeepest = 512;  ///< deeper than scenes are, and bounded
+
 }  // namespace
+
+Json parse_json_source(std::string_view text, const std::string& file) {
+    try {
+        return job::parse_json(text, file, kDeepest);
+    } catch (const Error& error) {
+        throw Error(ExitCode::unreadable_input, error.where(), error.message());
+    }
+}
 
 bool JsonFields::has(std::string_view key) const {
     return json_->is_object() && json_->contains(std::string(key)) && !(*json_)[std::string(key)].is_null();

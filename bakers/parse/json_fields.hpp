@@ -12,6 +12,9 @@
 
 namespace pbrbake::parse {
 
+/// A source's JSON. Throws Error(unreadable_input) with file, line and column.
+Json parse_json_source(std::string_view text, const std::string& file);
+
 /// An object or array of a document, and where it stands. Views into the document.
 class JsonFields {
   public:

@@ -1,47 +1,20 @@
 #include "bakers/parse/lights.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <array>
+#include <utility>
 
-#include "bakers/job/json_text.hpp"
+#include "bakers/parse/gltf_file.hpp"
+#include "bakers/parse/json_fields.hpp"
 #include "bakers/parse/light_formats.hpp"
 #include "bakers/parse/text.hpp"
 
 namespace pbrbake::parse {
 namespace {
 
-/// Deeper than scenes are, and bounded.
-constexpr int kDeepestScene = 512;
-
-Json json_of(std::string_view text, const std::string& file) {
-    try {
-        return job::parse_json(text, file, kDeepestScene);
-    } catch (const Error& error) {
-        throw Error(ExitCode::unreadable_input, error.where(), error.message());
-    }
-}
-
-/// The JSON chunk of a binary glTF (glTF 2.0, 4.4: three little-endian words, then chunks).
-std::string_view glb_json(std::string_view bytes, const std::string& file) {
-    const auto word = [&](std::size_t at) {
-        std::uint32_t value = 0;
-        for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-        return value;
-    };
-    constexpr std::size_t kHeader = 20;
-    if (bytes.size() < kHeader) throw malformed(file, 0, "is a binary glTF cut short in its header");
-    if (bytes.substr(16, 4) != "JSON")
-        throw malformed(file, 0, "is a binary glTF whose first chunk isn't JSON");
-    if (word(12) > bytes.size() - kHeader)
-        throw malformed(file, 0,
-                        "is a binary glTF that claims " + std::to_string(word(12)) +
-                            " bytes of JSON, but has " + std::to_string(bytes.size() - kHeader) + " left");
-    return bytes.substr(kHeader, word(12));
-}
-
 LightFile parse_json_lights(std::string_view text, const std::string& file,
                             const LightConventions& conventions) {
-    const Json json = json_of(text, file);
+    const Json json = parse_json_source(text, file);
     if (!json.is_object())
         throw malformed(file, 0,
                         "is JSON, but no object; allowed: glTF, a three.js scene, or {\"lights\": […]}");
@@ -75,9 +48,9 @@ LightFile parse_text_lights(std::string_view text, const std::string& file,
     if (head.starts_with('{') && !is_map) {
         const std::size_t key = head.find('"'), end = key == head.npos ? head.npos : head.find('"', key + 1);
         const std::size_t next = end == head.npos ? head.npos : head.find_first_not_of(" \t\r\n", end + 1);
-        if (next == head.npos || head[next] != '"') return parse_json_lights(head, file, conventions);
+        if (next == head.npos || head[next] != '"') return parse_json_lights(text, file, conventions);
     }
-    if (head.starts_with('[')) return parse_json_lights(head, file, conventions);
+    if (head.starts_with('[')) return parse_json_lights(text, file, conventions);
     if (is_map || head.find("\"classname\"") != head.npos) return parse_entity_lights(text, file);
     if (head.find("LightObject") != head.npos || head.starts_with("Metric"))
         return parse_opengex_lights(text, file);
@@ -90,16 +63,28 @@ LightFile parse_text_lights(std::string_view text, const std::string& file,
             "Source maps, OpenGEX, AC3D, CSV");
 }
 
+/// A scene's format that isn't read, by how its files begin; "" for none.
+std::string_view other_format(std::string_view raw) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kOthers{
+        {{"Kaydara", "FBX"},
+         {"; FBX", "FBX"},
+         {"FORM", "a LightWave object"},
+         {"LWSC", "a LightWave scene"},
+         {"MM", "3D Studio's 3DS"}}};
+    for (const auto& [magic, name] : kOthers)
+        if (raw.starts_with(magic)) return name;
+    return "";
+}
+
 }  // namespace
 
 LightFile parse_lights(std::span<const std::byte> bytes, std::string_view file,
                        const LightConventions& conventions) {
     const std::string name(file);
     const std::string_view raw(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (raw.starts_with("glTF"))
-        return parse_gltf_lights(json_of(glb_json(raw, name), name), name, conventions.gltf);
-    if (raw.starts_with("Kaydara"))
-        throw malformed(file, 0, "is FBX, which isn't read; export glTF or COLLADA");
+    if (is_binary_gltf(bytes)) return parse_gltf_lights(parse_gltf(bytes, name).json, name, conventions.gltf);
+    if (const std::string_view other = other_format(raw); !other.empty())
+        throw malformed(file, 0, "is " + std::string(other) + ", which isn't read; export glTF or COLLADA");
     std::vector<Diagnostic> diagnostics;
     const std::string text = decode_text(bytes, file, diagnostics);
     LightFile lights = parse_text_lights(text, name, conventions);

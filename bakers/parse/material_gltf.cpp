@@ -1,6 +1,7 @@
 // Materials of a glTF file with KHR_materials_pbrSpecularGlossiness (Khronos, archived): f0 and glossiness,
 // diffuse dimmed by 1 - max(f0). Normals and occlusion are core glTF 2.0.
 
+#include "bakers/parse/gltf_file.hpp"
 #include "bakers/parse/json_fields.hpp"
 #include "bakers/parse/materials.hpp"
 
@@ -67,12 +68,11 @@ class Gltf {
         if (const auto sampler = texture.index("sampler", samplers_.size()))
             material.is_clamped |= samplers_[*sampler].number({"wrapS"}, 0) == kClampToEdge;
         const auto source = texture.index("source", images_.size());
-        if (!source) texture.refuse("source", "the index of an image, which is missing");
+        if (!source) texture.refuse("source", "the index of an image (a PNG or JPEG), which is missing");
         const JsonFields& image = images_[*source];
-        const std::string uri = image.text({"uri"}, "");
-        if (uri.empty()) image.refuse("uri", "a picture in a file of its own (this one is in a buffer)");
-        return {uri.starts_with("data:") ? "data:" : path_of_uri(uri), texture.place() + " (" + key + ")", 0,
-                transform(*info)};
+        const bool is_inside = is_embedded(image);
+        return {is_inside ? "#/images/" + std::to_string(*source) : path_of_uri(image.text({"uri"}, "")),
+                texture.place() + " (" + key + ")", 0, transform(*info), is_inside};
     }
 
     static UvTransform transform(const JsonFields& info) {

@@ -11,6 +11,7 @@
 
 #include "bakers/baker.hpp"
 #include "bakers/parse/diagnostic.hpp"
+#include "bakers/parse/source_paths.hpp"
 
 namespace pbrbake::parse {
 
@@ -27,6 +28,7 @@ struct MaterialMap {
     std::string said;  ///< the statement that names it: "map_Kd"
     int line = 0;      ///< counted from 1; 0: unknown
     UvTransform transform;
+    bool is_embedded = false;  ///< in the file itself; the path is where: "#/images/3"
 };
 
 /// What reflects besides the diffuse term.
@@ -74,7 +76,7 @@ struct MaterialFile {
 /// Largest count of materials that a file may hold.
 inline constexpr std::size_t kMostMaterials = 100'000;
 
-/// Whether parse_materials reads files that end so: ".mtl", ".gltf", ".dae", ".json", in any case.
+/// Whether parse_materials reads files that end so: ".mtl", ".gltf", ".glb", ".dae", ".json", in any case.
 bool has_material_extension(std::string_view file);
 
 /// Reads MTL, glTF, COLLADA and plain JSON, by extension. Throws Error(unreadable_input) for what is
@@ -84,13 +86,6 @@ MaterialFile parse_materials(std::span<const std::byte> bytes, const std::string
 /// The material of a name, or else of an id. Throws Error(unreadable_input) that lists what there is.
 const LegacyMaterial& find_material(const MaterialFile& materials, const std::string& name,
                                     const std::string& file);
-
-/// Why a map's path doesn't name a picture in the tree of its file's folder, in words; nothing if it does: a
-/// downloaded file must not choose what is read.
-std::optional<std::string> path_refusal(const std::string& path);
-
-/// A URI reference as a path: "%20" is a blank.
-std::string path_of_uri(std::string_view uri);
 
 /// The readers behind parse_materials.
 MaterialFile parse_mtl(std::string_view text, const std::string& file);

@@ -1,24 +1,11 @@
 #include "bakers/parse/rules.hpp"
 
-#include "bakers/job/json_text.hpp"
 #include "bakers/parse/text.hpp"
 
 namespace pbrbake::parse {
-namespace {
-
-Json document(std::span<const std::byte> bytes, const std::string& file) {
-    std::vector<Diagnostic> diagnostics;
-    try {
-        return job::parse_json(decode_text(bytes, file, diagnostics), file);
-    } catch (const Error& error) {
-        throw Error(ExitCode::unreadable_input, error.where(), error.message());
-    }
-}
-
-}  // namespace
-
 std::vector<Rule> parse_rules(std::span<const std::byte> bytes, const std::string& file) {
-    const Json json = document(bytes, file);
+    std::vector<Diagnostic> diagnostics;
+    const Json json = parse_json_source(decode_text(bytes, file, diagnostics), file);
     const JsonFields root(json, file);
     if (!json.is_object())
         throw malformed(file, 0, "is no JSON object; allowed: {\"version\": 1, \"rules\": […]}");

@@ -8,6 +8,7 @@
 #include "bakers/io/io.hpp"
 #include "bakers/job/json_text.hpp"
 #include "bakers/run/atomic_file.hpp"
+#include "bakers/run/embedded_pictures.hpp"
 #include "bakers/run/entry.hpp"
 
 namespace pbrbake::run {
@@ -122,6 +123,7 @@ class BakeRun {
             inputs_.emplace(source.read.field, std::move(image));
         }
         warn_of_assumptions();
+        for (const fs::path& buffer : embedded_.buffers()) report_.reads.push_back(buffer);
         if (!bake_.baker->follow) return;
         for (const Read& read : bake_.baker->follow(inputs_)) follow(read);
     }
@@ -147,14 +149,19 @@ class BakeRun {
         return bake_.baker->builtin(path.substr(kBuiltinScheme.size()));
     }
 
-    SourceImage read(const job::Source& source) const {
+    SourceImage read(const job::Source& source) {
         if (source.read.as == Read::As::text) return io::read_text_source(source.file);
-        return io::read_source({source.file,
+        io::ReadRequest request{source.file,
                                 source.read.colour_space,
                                 job_.working_space,
                                 source.read.with_alpha,
                                 {job_.max_side, job_.max_decoded_bytes},
-                                source.read.as_codes});
+                                source.read.as_codes};
+        if (source.image) {
+            request.bytes = embedded_.read(source.file, *source.image);
+            request.path = source.file.parent_path() / source.read.path;
+        }
+        return io::read_source(request);
     }
 
     void warn_of(const job::Source& source, const SourceImage& image) {
@@ -288,6 +295,7 @@ class BakeRun {
     std::vector<job::Source> sources_;  ///< the bake's, and those that its files name
     std::map<std::string, std::vector<std::string>>
         assumed_;  ///< sources by the colour space they are taken for
+    EmbeddedPictures embedded_;
     Inputs inputs_;
     Product product_;
     Certificate certificate_;

@@ -45,6 +45,24 @@ ExitCode combined_code(const RunReport& report) {
     return codes.empty() ? ExitCode::done : codes.size() == 1 ? *codes.begin() : ExitCode::mixed_failures;
 }
 
+/// A bake of the run that failed and that another one joins, or null.
+const BakeReport* failed_part(const job::Bake& bake, std::span<const BakeReport> reports) {
+    for (const BakeReport& report : reports)
+        if (report.status == Status::failed &&
+            std::ranges::find(bake.parts, report.bake->name) != bake.parts.end())
+            return &report;
+    return nullptr;
+}
+
+/// What joins a failed bake fails with it: what that wrote earlier is out of date.
+BakeReport left_out(const job::Job& job, const job::Bake& bake, const BakeReport& part) {
+    BakeReport report = plan_bake(job, bake);
+    report.status = Status::failed;
+    report.code = part.code;
+    report.error = bake.file + ": isn't written, because \"" + part.bake->name + "\" failed";
+    return report;
+}
+
 /// Runs the bakes of one job into the report; false if the run was interrupted.
 bool run_job(const job::Job& job, const Options& options, RunReport& report) {
     const std::size_t first = report.bakes.size();
@@ -58,7 +76,8 @@ bool run_job(const job::Job& job, const Options& options, RunReport& report) {
             continue;
         }
         if (options.observer) options.observer->started(bake);
-        report.bakes.push_back(run_bake(job, bake, options));
+        const BakeReport* part = failed_part(bake, std::span(report.bakes).subspan(first));
+        report.bakes.push_back(part ? left_out(job, bake, *part) : run_bake(job, bake, options));
         if (options.observer) options.observer->finished(report.bakes.back());
         interrupted = report.bakes.back().status == Status::interrupted;
     }

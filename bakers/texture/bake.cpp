@@ -295,6 +295,12 @@ std::vector<Mistake> check_maps(const TextureParams& params) {
             mistakes.push_back({"/calibrate",
                                 "found \"library\", but a metallic_roughness set has no specular; "
                                 "allowed: auto, none"});
+        const bool is_told = params.surface == SurfaceIs::dielectric || params.surface == SurfaceIs::metal;
+        if (is_told && params.source.empty())  // of a source, one material of several may have a mask
+            mistakes.push_back(
+                {"/surface", "found \"" + std::string(enum_name(params.surface)) +
+                                 "\", but the mask of a metallic_roughness set says what it is; "
+                                 "allowed: auto, any"});
         return mistakes;
     }
     for (const auto& [field, path] : {std::pair("/base_color", &params.base_color),

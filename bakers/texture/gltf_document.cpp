@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace pbrbake::texture {
 namespace {
@@ -141,7 +140,8 @@ class Material {
     Json material_ = Json::object();
 };
 
-/// A file's name as a URI reference (RFC 3986, section 3.3): other bytes than unreserved ones as %XX.
+}  // namespace
+
 std::string uri_of(const std::string& file) {
     constexpr std::string_view kHex = "0123456789ABCDEF", kUnreserved = "-._~";
     std::string uri;
@@ -156,7 +156,6 @@ std::string uri_of(const std::string& file) {
     return uri;
 }
 
-/// Names of the extensions in a value and inside it.
 void find_extensions(const Json& json, std::set<std::string>& names) {
     if (!json.is_object()) return;
     for (const auto& [key, value] : json.items()) {
@@ -165,8 +164,6 @@ void find_extensions(const Json& json, std::set<std::string>& names) {
         find_extensions(value, names);
     }
 }
-
-}  // namespace
 
 Json gltf_material(const TextureParams& params, const Layout& layout, float specular_unit,
                    const std::optional<Unpacked>& factors) {

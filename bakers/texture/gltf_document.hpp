@@ -2,6 +2,8 @@
 // What a baked set is as a glTF 2.0 material, and the document of that material over the files of a bake.
 
 #include <optional>
+#include <set>
+#include <string>
 
 #include "bakers/texture/pack.hpp"
 
@@ -16,5 +18,11 @@ Json gltf_material(const TextureParams& params, const Layout& layout, float spec
 
 /// The document of gltf_material's result; its URIs are PNG files beside `file`, "X.gltf".
 Json gltf_document(const TextureParams& params, const Json& gltf, const std::string& file);
+
+/// A file's name as a URI reference (RFC 3986, section 3.3): other bytes than unreserved ones as %XX.
+std::string uri_of(const std::string& file);
+
+/// Adds the names of the extensions in a value and inside it.
+void find_extensions(const Json& json, std::set<std::string>& names);
 
 }  // namespace pbrbake::texture

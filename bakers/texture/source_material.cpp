@@ -7,6 +7,7 @@
 
 #include "bakers/parse/materials.hpp"
 #include "bakers/parse/text.hpp"
+#include "bakers/texture/scene.hpp"
 #include "bakers/texture/texture.hpp"
 
 namespace pbrbake::texture {
@@ -74,6 +75,8 @@ class Filling {
         return false;
     }
 
+    bool is_file(const std::string& path) const { return !files_.find(path).empty(); }
+
     /// What gloss is goes together: who states a part of it states all of it.
     bool states_gloss() const {
         return std::ranges::any_of(std::array{"gloss", "gloss_in", "gloss_is", "gloss_factor", "power"},
@@ -95,13 +98,14 @@ class Filling {
   private:
     /// As the material has it, else a file of that name beside the material: paths of other machines.
     std::string find(const char* field, const MaterialMap& map) const {
+        if (map.is_embedded) return source_ + map.path;
         const std::optional<std::string> refusal = parse::path_refusal(map.path);
         const std::string folder = folder_of(source_),
                           inner = map.path.starts_with("./") ? map.path.substr(2) : map.path,
                           name = map.path.substr(folder_of(map.path).size());
         if (!refusal)
             if (std::string path = files_.find(folder + inner); !path.empty()) return path;
-        const bool is_file = !map.path.starts_with("data:") && !name.empty() && name != ".." && name != ".";
+        const bool is_file = !name.empty() && name != ".." && name != ".";
         if (is_file)
             if (std::string path = files_.find(folder + name); !path.empty()) return path;
         throw parse::malformed(source_, map.line,
@@ -296,11 +300,15 @@ void fill_from_names(const std::string& base, Filling& fill) {
     constexpr double kExponent = 16;
     const bool has_diffuse = fill.picture("diffuse", base, {"_d", "_diffuse", ""});
     const bool has_specular = fill.picture("specular", base, {"_s", "_specular"});
-    if (!has_diffuse && !has_specular)
-        throw Error(
-            ExitCode::unreadable_input, base,
-            "is neither materials (.mtl, .gltf, .dae, .json) nor the base name of pictures: there is no " +
-                base + "_d.png or _s.png; allowed: png, tga, jpg, tif, exr");
+    if (!has_diffuse && !has_specular) {
+        const std::string allowed =
+            "; allowed: materials (.mtl, .gltf, .glb, .dae, .json), or the base name of pictures";
+        if (fill.is_file(base))
+            throw Error(ExitCode::unreadable_input, base, "is a file of a kind that isn't read" + allowed);
+        throw Error(ExitCode::unreadable_input, base,
+                    "is neither materials nor the base name of pictures: there is no " + base +
+                        "_d.png or _s.png" + allowed + " (png, tga, jpg, tif, exr)");
+    }
     fill.picture("normal", base, {"_n", "_normal", "_local"});
     fill.picture("occlusion", base, {"_o", "_ao"});
     fill.picture("emissive", base, {"_e", "_glow"});
@@ -366,10 +374,11 @@ std::vector<Expansion> expand(const Json& bake, const FileQueries& files) {
     if (!wanted.empty()) {
         expansions.push_back(expansion_of(find_material(file, wanted, source), bake, "", files));
     } else {
+        const bool has_suffixes = file.materials.size() > 1 || is_scene(bake);
         Suffixes suffixes;
         for (const LegacyMaterial& material : file.materials)
-            expansions.push_back(expansion_of(
-                material, bake, file.materials.size() > 1 ? suffixes.of(material.name) : "", files));
+            expansions.push_back(
+                expansion_of(material, bake, has_suffixes ? suffixes.of(material.name) : "", files));
     }
     for (const parse::Diagnostic& found : file.diagnostics)
         expansions.front().warnings.push_back(place(source, found.line) + ": " + found.message);

@@ -51,6 +51,11 @@ Sources::Sources(const TextureParams& params, const Inputs& inputs)
         height_ = std::max(height_, picture.height());
     }
     const bool is_metallic = rules_.params.model == Model::metallic_roughness;
+    const bool is_told =
+        rules_.params.surface == SurfaceIs::dielectric || rules_.params.surface == SurfaceIs::metal;
+    if (is_metallic && is_told)
+        warnings_.push_back("surface: is stated as " + std::string(enum_name(rules_.params.surface)) +
+                            ", but the set has a metallic mask, which is believed");
     diffuse_ = map_of(is_metallic ? "base_color" : "diffuse", 0);
     specular_ = map_of("specular", 0);
     occlusion_ = map_of("occlusion", 0);

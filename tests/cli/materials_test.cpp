@@ -218,7 +218,10 @@ TEST(Materials, NameWhatIsWrong) {
     EXPECT_THAT(refused("s.json", R"({"materials": [{"name": "a", "power": "x"}]})"),
                 AllOf(HasSubstr("material \"a\": power: found \"x\""), HasSubstr("s.json")));
     EXPECT_THAT(refused("s.json", R"({"materials": [{"name": "a", "power": -1}]})"), HasSubstr("power"));
-    EXPECT_THAT(refused("crates", "no picture"), HasSubstr("is neither materials"));
+    EXPECT_THAT(refused("crates.fbx", "no picture"), HasSubstr("is a file of a kind that isn't read"));
+    const Outcome nothing = run_program({"texture", "--source", "no/crates", "-o", "/tmp/none.gltf"});
+    EXPECT_EQ(nothing.code, 4);
+    EXPECT_THAT(nothing.err, HasSubstr("there is no no/crates_d.png or _s.png"));
     const Outcome absent = run_program({"texture", "--source", "none.mtl", "-o", "/tmp/none.gltf"});
     EXPECT_EQ(absent.code, 4);
     EXPECT_THAT(absent.err, HasSubstr("none.mtl"));
@@ -237,6 +240,219 @@ TEST(Materials, AreHeldAgainstTheFormat) {
     EXPECT_EQ(outcome.code, 0);
     EXPECT_THAT(outcome.out,
                 AllOf(HasSubstr("out.gltf"), HasSubstr("out.material.json"), Not(HasSubstr("base_color"))));
+}
+
+/// RFC 4648's base64, written apart from the program's.
+std::string base64(const std::string& bytes) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    std::uint32_t held = 0;
+    int bits = 0;
+    for (const char byte : bytes) {
+        held = held << 8 | static_cast<unsigned char>(byte);
+        for (bits += 8; bits >= 6; bits -= 6) text += digits[held >> (bits - 6) & 63];
+    }
+    if (bits > 0) text += digits[held << (6 - bits) & 63];
+    return text + std::string((4 - text.size() % 4) % 4, '=');
+}
+
+std::string little_endian(std::size_t value) {
+    std::string text;
+    for (int i = 0; i < 4; ++i) text += static_cast<char>(value >> 8 * i & 255);
+    return text;
+}
+
+/// A binary glTF of JSON and a buffer.
+std::string glb(std::string json, std::string buffer) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    buffer.resize((buffer.size() + 3) / 4 * 4, '\0');
+    const std::string chunks = little_endian(json.size()) + "JSON" + json + little_endian(buffer.size()) +
+                               std::string("BIN\0", 4) + buffer;
+    return "glTF" + little_endian(2) + little_endian(12 + chunks.size()) + chunks;
+}
+
+/// A specular-glossiness material over one image, and what else the document has.
+std::string gltf_of(const std::string& image, const std::string& rest = "") {
+    return R"({"asset": {"version": "2.0"}, "images": [{"name": "unused", "uri": "none.png"}, )" + image +
+           R"(], "textures": [{"source": 1}], "materials": [{"name": "crate", "extensions": {
+             "KHR_materials_pbrSpecularGlossiness": {"diffuseTexture": {"index": 0},
+             "specularFactor": [0.04, 0.04, 0.04], "glossinessFactor": 0.5}}}])" +
+           rest + "}";
+}
+
+/// A PNG as the program writes it.
+std::string png() {
+    const TemporaryFolder folder;
+    const fs::path source = folder.write("a.tga", targa(180, 90, 60)),
+                   product = source.parent_path() / "a.png";
+    EXPECT_EQ(run_program({"texture", "--diffuse", source, "--pixel", "unorm8", "-o", product}).code, 0);
+    return job::read_text(product);
+}
+
+TEST(Materials, OfGltfMayEmbedTheirPictures) {
+    const std::string picture = png(), size = std::to_string(picture.size()),
+                      all = std::to_string(picture.size() + 5);
+    const std::string view = R"({"mimeType": "image/png", "bufferView": 0})",
+                      views = R"(, "bufferViews": [{"buffer": 0, "byteOffset": 5, "byteLength": )" + size +
+                              R"(}], "buffers": [{"byteLength": )" + all;
+    const auto colours = [&](const std::string& file, const std::string& bytes, const char* input) {
+        const Scene scene(file, bytes);
+        scene.add("p.png", picture);
+        scene.add("p.bin", "12345" + picture);
+        const Outcome outcome =
+            scene.bake("out.gltf", {"--material", "crate", "--depfile", scene.path("out.d")});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        const Json record = read_json(scene.path("out.gltf.json"));
+        EXPECT_EQ(record["inputs"][0]["path"], input);
+        EXPECT_EQ(record["params"]["diffuse"], input);
+        const std::string depends = job::read_text(scene.path("out.d"));
+        EXPECT_THAT(depends, HasSubstr(file));
+        EXPECT_EQ(depends.find("p.bin") != depends.npos, bytes.find("p.bin") != bytes.npos);
+        return record["inputs"][0]["xxh3"].get<std::string>() +
+               job::read_text(scene.path("out_base_color.png"));
+    };
+    const std::string expected = colours("s.gltf", gltf_of(R"({"uri": "p.png"})"), "p.png");
+    const std::string data = R"({"uri": "data:image/png;base64,)" + base64(picture) + R"("})";
+    EXPECT_EQ(colours("s.gltf", gltf_of(data), "s.gltf#/images/1"), expected);
+    EXPECT_EQ(colours("s.gltf", gltf_of(view, views + R"(, "uri": "p.bin"}])"), "s.gltf#/images/1"),
+              expected);
+    EXPECT_EQ(colours("s.glb", glb(gltf_of(view, views + "}]"), "12345" + picture), "s.glb#/images/1"),
+              expected);
+}
+
+TEST(Materials, MayBeOverriddenByAPictureInside) {
+    const Scene scene("s.gltf", gltf_of(R"({"uri": "data:image/png;base64,)" + base64(png()) + R"("})"));
+    scene.add("job.json", R"({"version": 1, "output": "baked", "bakes": [
+        {"kind": "texture", "name": "a", "diffuse": "s.gltf#/images/1", "format": "png"},
+        {"kind": "texture", "name": "b", "diffuse": "s.gltf#/images/7", "format": "png"}]})");
+    const Outcome outcome = run_program({"bake", scene.path("job.json")});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("s.gltf: has 2 images, and none of index 7"));
+    EXPECT_TRUE(fs::exists(scene.path("baked/a.png")));
+}
+
+TEST(Materials, SayWhatIsWrongWithEmbeddedPictures) {
+    const auto refused = [](const std::string& file, const std::string& bytes) {
+        const Scene scene(file, bytes);
+        const Outcome outcome = scene.bake("out.gltf");
+        EXPECT_EQ(outcome.code, 4) << outcome.err;
+        EXPECT_FALSE(fs::exists(scene.path("out.gltf")));
+        return outcome.err;
+    };
+    const std::string
+        view = R"({"mimeType": "image/png", "bufferView": 0})",
+        views = R"(, "bufferViews": [{"buffer": 0, "byteLength": 40}], "buffers": [{"byteLength": 40)";
+    EXPECT_THAT(refused("s.gltf", gltf_of(R"({"uri": "data:image/png;base64,Zm9v#mFy"})")),
+                HasSubstr("s.gltf#/images/1/uri: found '#' after 4 digits of base64"));
+    EXPECT_THAT(refused("s.gltf", gltf_of(R"({"uri": "data:image/png;base64,Zm9vYmFy"})")),
+                HasSubstr("s.gltf#/images/1: is none of the formats that are read"));
+    EXPECT_THAT(refused("s.gltf", gltf_of(view, views + R"(, "uri": "none.bin"}])")),
+                HasSubstr("none.bin: there is no such file"));
+    EXPECT_THAT(refused("s.glb", glb(gltf_of(view, views + "}]"), "too short")),
+                HasSubstr("s.glb#/buffers/0: claims 40 bytes, but has 12"));
+    EXPECT_THAT(refused("s.glb", "glTF" + little_endian(2) + little_endian(99)),
+                HasSubstr("claims 99 bytes in all"));
+    EXPECT_THAT(refused("s.glb", "glTG"), HasSubstr("s.glb:1:1: not JSON"));
+}
+
+/// A document of three materials, two of them specular-glossiness, with what a conversion must keep.
+std::string scene_gltf() {
+    return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 2}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+      "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "mesh data.bin"}],
+      "samplers": [{"wrapS": 33071, "wrapT": 33071}],
+      "images": [{"uri": "old.png"}, {"uri": "keep.png"}],
+      "textures": [{"source": 0, "sampler": 0}, {"source": 1}, {"source": 1, "sampler": 0}],
+      "materials": [
+        {"name": "paint", "extras": {"id": 7}, "normalTexture": {"index": 0, "texCoord": 1}, "extensions": {
+          "KHR_materials_pbrSpecularGlossiness": {"diffuseTexture": {"index": 0}, "glossinessFactor": 0.25},
+          "KHR_materials_unlit": {}}},
+        {"name": "steel", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0, 0, 0, 1],
+          "specularFactor": [0.5, 0.5, 0.5]}}},
+        {"name": "kept", "pbrMetallicRoughness": {"baseColorTexture": {"index": 2}, "metallicFactor": 0}}],
+      "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit"],
+      "extensionsRequired": ["KHR_materials_pbrSpecularGlossiness"]})";
+}
+
+TEST(MaterialsScene, KeepsAllButItsMaterials) {
+    const Scene scene("s.gltf", scene_gltf());
+    for (const char* name : {"old.png", "keep.png"}) scene.add(name, png());
+    scene.add("mesh data.bin", std::string(36, '\0'));
+    const Outcome outcome = scene.bake("out/new.gltf");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json document = read_json(scene.path("out/new.gltf")),
+               before = job::parse_json(scene_gltf(), "", 64);
+    for (const char* key :
+         {"asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews", "samplers"})
+        EXPECT_EQ(document[key], before[key]) << key;
+    EXPECT_EQ(document["extensionsUsed"][0], "KHR_materials_unlit");
+    EXPECT_FALSE(document.contains("extensionsRequired"));
+    EXPECT_EQ(document["buffers"][0]["uri"], "new.bin");
+    EXPECT_EQ(job::read_text(scene.path("out/new.bin")), std::string(36, '\0'));
+    const Json paint = document["materials"][0], steel = document["materials"][1],
+               kept = document["materials"][2];
+    EXPECT_EQ(paint["extras"], Json({{"id", 7}}));
+    EXPECT_EQ(paint["extensions"]["KHR_materials_unlit"], Json::object());
+    EXPECT_FALSE(document.dump().find("SpecularGlossiness") != std::string::npos);
+    EXPECT_EQ(paint["normalTexture"]["texCoord"], 1);
+    EXPECT_GT(steel["pbrMetallicRoughness"]["metallicFactor"].get<double>(), .9);
+    const auto file = [&](const Json& info) {
+        const Json texture = document["textures"][info["index"].get<std::size_t>()];
+        return document["images"][texture["source"].get<std::size_t>()]["uri"].get<std::string>();
+    };
+    EXPECT_EQ(file(paint["pbrMetallicRoughness"]["baseColorTexture"]), "new_paint_base_color.png");
+    EXPECT_EQ(file(paint["normalTexture"]), "new_paint_normal.png");
+    for (const Json& image : document["images"]) {
+        EXPECT_NE(image["uri"], "old.png");
+        EXPECT_TRUE(fs::exists(scene.path("out") / image["uri"].get<std::string>())) << image;
+    }
+    EXPECT_EQ(job::read_text(scene.path("out") / file(kept["pbrMetallicRoughness"]["baseColorTexture"])),
+              job::read_text(scene.path("keep.png")));
+    for (const Json& info : {paint["normalTexture"], kept["pbrMetallicRoughness"]["baseColorTexture"]})
+        EXPECT_EQ(document["textures"][info["index"].get<std::size_t>()]["sampler"], 0);
+    expect_valid(scene.path("out/new.gltf.json"), "sidecar.schema.json");
+    EXPECT_TRUE(fs::exists(scene.path("out/new_steel.gltf")));
+}
+
+TEST(MaterialsScene, OfAJobStandsInItsManifest) {
+    const Scene scene("s.gltf", scene_gltf());
+    for (const char* name : {"old.png", "keep.png"}) scene.add(name, png());
+    scene.add("mesh data.bin", std::string(36, '\0'));
+    scene.add("job.json", R"({"version": 1, "output": "baked", "accuracy": {"max_error": 0.5}, "bakes": [
+        {"kind": "texture", "name": "s", "source": "s.gltf", "format": "gltf"}]})");
+    const Outcome outcome = run_program({"bake", scene.path("job.json")});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json products = read_json(scene.path("baked/manifest.json"))["products"];
+    ASSERT_EQ(products.size(), 3u);
+    EXPECT_EQ(products[2]["name"], "s");
+    EXPECT_EQ(products[2]["inputs"][1]["path"], "s_paint.material.json");
+}
+
+TEST(MaterialsScene, OfABinaryFileKeepsItsBuffer) {
+    const std::string picture = png(), size = std::to_string(picture.size());
+    const Scene scene("s.glb", glb(gltf_of(R"({"mimeType": "image/png", "bufferView": 0})",
+                                           R"(, "bufferViews": [{"buffer": 0, "byteLength": )" + size +
+                                               R"(}], "buffers": [{"byteLength": )" + size + "}]"),
+                                   picture));
+    const Outcome outcome = scene.bake("out.gltf");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json document = read_json(scene.path("out.gltf"));
+    EXPECT_EQ(document["buffers"][0]["uri"], "out.bin");
+    EXPECT_EQ(job::read_text(scene.path("out.bin")).substr(0, picture.size()), picture);
+    for (const Json& image : document["images"]) EXPECT_FALSE(image.contains("bufferView"));
+}
+
+TEST(MaterialsScene, IsNotWrittenWithoutItsParts) {
+    const Scene scene("s.gltf", scene_gltf());  // old.png is absent
+    const Outcome outcome = scene.bake("out.gltf");
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("out.gltf: isn't written, because \"out_paint\" failed"));
+    EXPECT_FALSE(fs::exists(scene.path("out.gltf")));
+    for (const char* name : {"old.png", "keep.png"}) scene.add(name, png());
+    const Outcome again = scene.bake("out.gltf");
+    EXPECT_EQ(again.code, 4);
+    EXPECT_THAT(again.err, HasSubstr("s.gltf: names the file \"mesh data.bin\", which is not there"));
 }
 
 TEST(MaterialsRealFiles, Convert) {

@@ -1,13 +1,16 @@
 // node check_gltf.mjs FILE…: holds glTF files against Khronos's validator. An error or a warning fails; hints don't.
 
 import { readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 import validator from 'gltf-validator';
 
 const paths = process.argv.slice(2);
 let failures = 0, lights = 0;
 for (const path of paths) {
     const bytes = new Uint8Array(readFileSync(path));
-    const { issues } = await validator.validateBytes(bytes, { uri: path });
+    const externalResourceFunction = async (uri) =>
+        new Uint8Array(readFileSync(join(dirname(path), decodeURIComponent(uri))));
+    const { issues } = await validator.validateBytes(bytes, { uri: path, externalResourceFunction });
     lights += JSON.parse(new TextDecoder().decode(bytes)).extensions?.KHR_lights_punctual?.lights.length ?? 0;
     if (issues.numErrors + issues.numWarnings === 0) continue;
     ++failures;

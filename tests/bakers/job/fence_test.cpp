@@ -8,6 +8,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+TEST(PlaceOf, PartsAFileFromAPictureInside) {
+    const Place place = place_of("/data/scene.glb#/images/12");
+    EXPECT_EQ(place.file, "/data/scene.glb");
+    EXPECT_EQ(place.image, 12u);
+    EXPECT_EQ(place.name(), "scene.glb#/images/12");
+    for (const char* path : {"a.png", "a#b.png", "a.glb#/images/", "a.glb#/images/x", "a.glb#/images/-1",
+                             "a.glb#/images/1x", "a.glb#/images/99999999999999999999", ""}) {
+        EXPECT_FALSE(place_of(path).image) << path;
+        EXPECT_EQ(place_of(path).file, path);
+    }
+}
+
 TEST(Fence, KeepsPathsInsideTheFolder) {
     const test::TemporaryFolder folder;
     const Fence fence(folder / "job", {});

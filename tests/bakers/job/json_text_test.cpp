@@ -35,7 +35,9 @@ TEST(ParseJson, RefusesCommentsAndTrailingText) {
 }
 
 TEST(ParseJson, RefusesNumbersThatOverflow) {
-    EXPECT_EQ(failure("{\"a\": 1e999}"), "x.json: not JSON: number overflow parsing '1e999'");
+    EXPECT_EQ(failure("{\"a\": 1e999}"), "x.json:1:7: not JSON: number overflow parsing '1e999'");
+    EXPECT_EQ(failure("{\"1e999\": [1, 2,\n  3,\n\t-1e999, 4]}"),
+              "x.json:3:2: not JSON: number overflow parsing '-1e999'");
 }
 
 TEST(ParseJson, BoundsNesting) {

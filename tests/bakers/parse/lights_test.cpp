@@ -293,14 +293,18 @@ TEST(GltfLights, SayWhereTheyBreak) {
         HasSubstr("below 0"));
     using namespace std::string_literals;
     EXPECT_THAT(refusal_of_lights("glTF\2\0\0\0\x20\0\0\0\x40\0\0\0JSON{}"s, "a.glb"),
-                HasSubstr("claims 64 bytes"));
+                HasSubstr("claims 32 bytes in all, but has 22"));
 }
 
 TEST(Lights, RefuseWhatIsNoFormatKnown) {
     EXPECT_THAT(refusal_of_lights("hello\n", "a.txt"), HasSubstr("as no format known does"));
     EXPECT_THAT(refusal_of_lights("", "a.txt"), HasSubstr("is empty"));
     EXPECT_THAT(refusal_of_lights("  \n", "a.txt"), HasSubstr("nothing but blanks"));
-    EXPECT_THAT(refusal_of_lights("Kaydara FBX Binary", "a.fbx"), HasSubstr("FBX"));
+    for (const char* head : {"Kaydara FBX Binary", "; FBX 7.7.0 project file"})
+        EXPECT_THAT(refusal_of_lights(head, "a.fbx"), HasSubstr("is FBX, which isn't read"));
+    EXPECT_THAT(refusal_of_lights(std::string("MM\0\0", 4), "a.3ds"), HasSubstr("is 3D Studio's 3DS"));
+    EXPECT_THAT(refusal_of_lights(std::string("FORM\0\0LWO2", 10), "a.lwo"),
+                HasSubstr("is a LightWave object"));
 }
 
 TEST(Lights, ReadTheRealFiles) {

@@ -162,6 +162,16 @@ TEST(GltfMaterials, ReadSpecularGlossiness) {
     EXPECT_EQ(m.diffuse.transform, (UvTransform{{.5, 0}, {2, 2}, 0}));
 }
 
+TEST(GltfMaterials, PointAtPicturesTheyEmbed) {
+    for (const char* index : {"1", "2"}) {
+        const std::string text = replaced(kGltf, "\"diffuseTexture\": {\"index\": 0",
+                                          std::string("\"diffuseTexture\": {\"index\": ") + index);
+        const MaterialMap diffuse = read(text, "m.gltf").materials.at(0).diffuse;
+        EXPECT_TRUE(diffuse.is_embedded);
+        EXPECT_EQ(diffuse.path, std::string("#/images/") + index);
+    }
+}
+
 TEST(GltfMaterials, RefuseWhatIsAbsentOrOutOfRange) {
     const auto with = [](const char* from, const char* to) {
         return refusal(replaced(kGltf, from, to), "m.gltf");
@@ -169,8 +179,7 @@ TEST(GltfMaterials, RefuseWhatIsAbsentOrOutOfRange) {
     EXPECT_THAT(with("\"diffuseTexture\": {\"index\": 0", "\"diffuseTexture\": {\"index\": 7"),
                 HasSubstr("diffuseTexture/index: found '7'"));
     EXPECT_THAT(with("\"source\": 0", "\"source\": 9"), HasSubstr("m.gltf#/textures/0/source"));
-    EXPECT_THAT(with("\"diffuseTexture\": {\"index\": 0", "\"diffuseTexture\": {\"index\": 2"),
-                HasSubstr("(this one is in a buffer)"));
+    EXPECT_THAT(with("{\"uri\": \"a%20b.png\"}", "{}"), HasSubstr("m.gltf#/images/0/uri: found nothing"));
     EXPECT_THAT(with("0.25, 0.125", "2, 0.125"), HasSubstr("diffuseFactor"));
     EXPECT_THAT(with("\"glossinessFactor\": 0.6", "\"glossinessFactor\": \"x\""),
                 HasSubstr("glossinessFactor"));
@@ -278,7 +287,7 @@ TEST(Materials, LeadOnlyIntoTheirOwnFolder) {
 }
 
 TEST(Materials, KnowTheirExtensions) {
-    for (const char* file : {"a.mtl", "a.MTL", "x/a.gltf", "a.dae", "a.b.json"})
+    for (const char* file : {"a.mtl", "a.MTL", "x/a.gltf", "a.glb", "a.dae", "a.b.json"})
         EXPECT_TRUE(has_material_extension(file)) << file;
     for (const char* file : {"", "a", "mtl", "a.png", "a.mtl/b", "a.mtlx"})
         EXPECT_FALSE(has_material_extension(file)) << file;

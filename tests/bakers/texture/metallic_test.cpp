@@ -142,6 +142,22 @@ TEST(MetallicSet, ReturnsThroughSpecularGloss) {
     }
 }
 
+TEST(MetallicSet, BelievesItsMaskAndNoStatedSurface) {
+    TextureParams params = metallic_defaults();
+    params.surface = SurfaceIs::any;
+    EXPECT_TRUE(check(params, "png").empty());
+    params.surface = SurfaceIs::metal;
+    ASSERT_EQ(check(params, "png").size(), 1u);
+    EXPECT_EQ(check(params, "png").front().pointer, "/surface");
+    params.source = "scene.mtl";  // whose other materials may have no mask
+    EXPECT_TRUE(check(params, "png").empty());
+    const Baked baked = bake_set(params, metallic_set(0), PixelType::float32);
+    EXPECT_EQ(baked.image("orm").texel(0, 0, 0, 2)[2], 0);
+    EXPECT_EQ(std::ranges::count_if(baked.product.warnings,
+                                    [](const std::string& text) { return text.starts_with("surface: "); }),
+              1);
+}
+
 TEST(MetallicSet, MapsOfOtherModelsAreMistakes) {
     TextureParams params = metallic_defaults();
     EXPECT_TRUE(check(params, "png").empty());

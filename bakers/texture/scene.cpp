@@ -1,0 +1,271 @@
+// glTF 2.0: materials, textures and images are referred to by their indices.
+
+#include "bakers/texture/scene.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <set>
+
+#include "bakers/parse/gltf_file.hpp"
+#include "bakers/parse/materials.hpp"
+#include "bakers/texture/gltf_document.hpp"
+
+namespace pbrbake::texture {
+namespace {
+
+constexpr const char* kSpecularGloss = "KHR_materials_pbrSpecularGlossiness";
+constexpr const char* kTransform = "KHR_texture_transform";
+
+using parse::JsonFields;
+
+/// Calls visit(key, info) for each texture that a material refers to: glTF and its extensions call all of
+/// them "…Texture".
+void for_each_texture(Json& json, const std::function<void(const std::string& key, Json& info)>& visit) {
+    if (!json.is_object()) return;
+    for (auto& [key, value] : json.items()) {
+        if (key.ends_with("Texture") && value.is_object() && value.contains("index")) visit(key, value);
+        for_each_texture(value, visit);
+    }
+}
+
+Json member(const Json& json, const char* key) {
+    return json.is_object() && json.contains(key) ? json[key] : Json();
+}
+
+bool is_specular_gloss(const Json& material) {
+    return member(member(material, "extensions"), kSpecularGloss).is_object();
+}
+
+/// A file that stays in use.
+struct Kept {
+    std::string field;   ///< in the inputs
+    std::string path;    ///< beside the source
+    std::string suffix;  ///< of the document that it becomes
+    Json::json_pointer uri;
+};
+
+class Scene {
+  public:
+    explicit Scene(const Inputs& inputs)
+        : source_(inputs.at("source")), gltf_(parse::parse_gltf(source_.bytes, source_.name)) {
+        JsonFields(document(), source_.name).objects("textures");  // refuses what is no list
+        std::size_t part = 0;
+        for (Json& material : document()["materials"])
+            if (is_specular_gloss(material)) replace(material, inputs.at("part." + std::to_string(part++)));
+        if (has_known_extensions()) drop_unused();
+        list_extensions();
+        find_kept("buffers");
+        find_kept("images");
+    }
+
+    const std::vector<Kept>& kept() const { return kept_; }
+
+    Product product(const Inputs& inputs, const std::string& file) {
+        const std::string stem = file.substr(0, file.find_last_of('.'));
+        Product product;
+        for (const Kept& kept : kept_) {
+            const auto input = inputs.find(kept.field);
+            if (input == inputs.end())
+                throw parse::malformed(source_.name, 0,
+                                       "names the file \"" + kept.path + "\", which is not there");
+            add_file(input->second.bytes, kept.suffix, product);
+            document()[kept.uri] = uri_of(stem + "." + kept.suffix);
+        }
+        if (!gltf_.chunk.empty() && document().contains("buffers") &&
+            !document()["buffers"][0].contains("uri")) {
+            add_file(gltf_.chunk, "bin", product);
+            document()["buffers"][0]["uri"] = uri_of(stem + ".bin");
+        }
+        product.documents.insert(product.documents.begin(), {"gltf", std::move(document()), ""});
+        return product;
+    }
+
+  private:
+    Json& document() { return gltf_.json; }
+
+    static void add_file(std::span<const std::byte> bytes, const std::string& suffix, Product& product) {
+        product.documents.push_back(
+            {suffix, nullptr, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}});
+    }
+
+    /// The baked material over the old one's name, extras and other extensions. Its textures are read where
+    /// those were that they come from, with the same sampler.
+    void replace(Json& material, const SourceImage& part) {
+        const std::string text(reinterpret_cast<const char*>(part.bytes.data()), part.bytes.size());
+        const Json gltf = parse::parse_json_source(text, part.name)["gltf"];
+        const std::string name = part.name.substr(part.name.find_last_of("/\\") + 1);
+        const std::string stem = name.substr(0, name.size() - std::string_view(kPartDocument).size() - 1);
+        const Json old = material;
+        for (const char* key :
+             {"pbrMetallicRoughness", "normalTexture", "occlusionTexture", "emissiveTexture",
+              "emissiveFactor", "alphaMode", "alphaCutoff", "doubleSided"})
+            material.erase(key);
+        for (const char* key : {kSpecularGloss, "KHR_materials_ior", "KHR_materials_specular",
+                                "KHR_materials_emissive_strength"})
+            material["extensions"].erase(key);
+        Json baked = gltf["material"];
+        std::map<std::size_t, std::size_t> textures;  // by image of the part
+        for_each_texture(baked, [&](const std::string& key, Json& info) {
+            const Json like = origin_of(key, old);
+            const std::size_t image = info["index"].get<std::size_t>();
+            if (!textures.contains(image))
+                textures[image] =
+                    add_texture(stem + "_" + gltf["images"][image].get<std::string>() + ".png", like);
+            info["index"] = textures[image];
+            place(like, info);
+        });
+        material.update(baked, true);
+        if (material["extensions"].empty()) material.erase("extensions");
+    }
+
+    /// The old texture that one of the baked material's comes from; null for none.
+    static Json origin_of(const std::string& key, const Json& old) {
+        if (key == "normalTexture" || key == "occlusionTexture" || key == "emissiveTexture")
+            return member(old, key.c_str());
+        const Json gloss = member(member(old, "extensions"), kSpecularGloss);
+        const Json diffuse = member(gloss, "diffuseTexture");
+        return diffuse.is_null() ? member(gloss, "specularGlossinessTexture") : diffuse;
+    }
+
+    /// Texture coordinates and their transform as another has them.
+    static void place(const Json& like, Json& info) {
+        if (!like.is_object()) return;
+        if (like.contains("texCoord")) info["texCoord"] = like["texCoord"];
+        const Json transform = member(member(like, "extensions"), kTransform);
+        info.erase("extensions");
+        if (!transform.is_null()) info["extensions"][kTransform] = transform;
+    }
+
+    std::size_t add_texture(const std::string& file, const Json& like) {
+        Json& textures = document()["textures"];
+        Json texture{{"source", document()["images"].size()}};
+        if (like.is_object()) {
+            const auto index = JsonFields(like, source_.name).index("index", textures.size());
+            if (index && textures[*index].contains("sampler"))
+                texture["sampler"] = textures[*index]["sampler"];
+        }
+        document()["images"].push_back({{"uri", uri_of(file)}, {"mimeType", "image/png"}});
+        textures.push_back(std::move(texture));
+        baked_uris_.insert(uri_of(file));
+        return textures.size() - 1;
+    }
+
+    /// Other extensions of the document may refer to textures and images by index.
+    bool has_known_extensions() {
+        const Json extensions = member(document(), "extensions");
+        static const std::set<std::string> kKnown{"KHR_lights_punctual", "KHR_materials_variants"};
+        return !extensions.is_object() || std::ranges::all_of(extensions.items(), [](const auto& item) {
+            return kKnown.contains(item.key());
+        });
+    }
+
+    /// Keeps the elements that `users` refer to, which are indices in the list, and moves them up.
+    void keep(const char* list_name, const std::vector<Json*>& users) {
+        if (!document().contains(list_name)) return;
+        Json& list = document()[list_name];
+        std::map<std::size_t, std::size_t> moved;
+        for (const Json* user : users) {
+            if (!user->is_number_unsigned() || user->get<std::size_t>() >= list.size())
+                throw parse::malformed(
+                    source_.name, 0,
+                    std::string("refers to an element of \"") + list_name + "\" that isn't there");
+            moved[user->get<std::size_t>()] = 0;
+        }
+        Json kept = Json::array();
+        for (auto& [from, to] : moved) {
+            to = kept.size();
+            kept.push_back(list[from]);
+        }
+        for (Json* user : users) *user = moved[user->get<std::size_t>()];
+        list = std::move(kept);
+        if (list.empty()) document().erase(list_name);
+    }
+
+    void drop_unused() {
+        std::vector<Json*> textures, images;
+        for (Json& material : document()["materials"])
+            for_each_texture(material,
+                             [&](const std::string&, Json& info) { textures.push_back(&info["index"]); });
+        keep("textures", textures);
+        if (document().contains("textures"))
+            for (Json& texture : document()["textures"]) {
+                if (texture.contains("source")) images.push_back(&texture["source"]);
+                if (texture.contains("extensions"))
+                    for (auto& [name, extension] : texture["extensions"].items())
+                        if (extension.is_object() && extension.contains("source"))
+                            images.push_back(&extension["source"]);
+            }
+        keep("images", images);
+    }
+
+    void list_extensions() {
+        std::set<std::string> found;
+        for (const Json& material : document()["materials"]) find_extensions(material, found);
+        for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+            Json names = Json::array();
+            for (const Json& name : member(document(), key))
+                if (name != kSpecularGloss) names.push_back(name);
+            if (std::string_view(key) == "extensionsUsed")
+                for (const std::string& name : found)
+                    if (std::ranges::find(names, Json(name)) == names.end()) names.push_back(name);
+            document().erase(key);
+            if (!names.empty()) document()[key] = std::move(names);
+        }
+    }
+
+    /// Files of buffers or images that are not the baked ones.
+    void find_kept(const std::string& list_name) {
+        const std::vector<JsonFields> list = JsonFields(document(), source_.name).objects(list_name);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const std::string uri = list[i].text({"uri"}, ""), number = std::to_string(i);
+            if (uri.empty() || uri.starts_with("data:") || is_baked(uri)) continue;
+            const std::string path = parse::path_of_uri(uri);
+            if (const auto refusal = parse::path_refusal(path))
+                throw parse::malformed(list[i].place() + "/uri", 0, "\"" + path + "\" " + *refusal);
+            const std::size_t dot = path.find_last_of("./");
+            const std::string end = dot != path.npos && path[dot] == '.' ? path.substr(dot + 1) : "bin";
+            kept_.push_back(
+                {list_name + "." + number, path,
+                 list_name == "buffers" ? i == 0 ? "bin" : number + ".bin" : "image" + number + "." + end,
+                 Json::json_pointer("/" + list_name + "/" + number + "/uri")});
+        }
+    }
+
+    bool is_baked(const std::string& uri) const { return baked_uris_.contains(uri); }
+
+    const SourceImage& source_;
+    parse::GltfFile gltf_;
+    std::set<std::string> baked_uris_;
+    std::vector<Kept> kept_;
+};
+
+}  // namespace
+
+bool is_scene(const Json& bake) {
+    const std::string source = bake.value("source", "");
+    std::string end =
+        source.substr(source.find_last_of('.') == source.npos ? source.size() : source.find_last_of('.'));
+    for (char& c : end)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return (end == ".gltf" || end == ".glb") && bake.value("material", "").empty() &&
+           bake.value("format", "") == "gltf";
+}
+
+std::vector<Read> scene_reads(const Json& bake) {
+    return {{"source", bake["source"].get<std::string>(), "", Read::As::text}};
+}
+
+std::vector<Read> scene_files(const Inputs& inputs) {
+    std::vector<Read> files;
+    const Scene scene(inputs);
+    for (const Kept& kept : scene.kept())
+        files.push_back({kept.field, kept.path, "", Read::As::text});
+    return files;
+}
+
+Product bake_scene(const Inputs& inputs, const std::string& product_file) {
+    return Scene(inputs).product(inputs, product_file);
+}
+
+}  // namespace pbrbake::texture
