@@ -123,7 +123,7 @@ TEST(NearField, OfAConstantIsNothingAndOfAnyPictureFinite) {
             const SplitKernel split(GgxZonalKernel(0.005), 0.03);
             const std::vector<glm::dvec3> at = directions();
             std::vector<double> sums(at.size() * 3);
-            NearField(view, glm::dvec3(static_cast<double>(value)), {}, split).add(at, sums);
+            NearField(view, {{}, {value, value, value}}, split).add(at, sums);
             for (const double sum : sums) ASSERT_EQ(sum, 0);
             if (width != 9) continue;
             const LdHarmonic harmonic(view, 0.005, 1e-3, for_each_in_turn);
