@@ -22,6 +22,7 @@ struct PicturePart {
 /// copies, the others the picture's own: it must outlive this.
 class EquirectRows {
   public:
+    /// Copies what it must.
     EquirectRows(const EquirectView& source, const PicturePart& part);
     EquirectRows(const EquirectRows&) = delete;  // rows_ points into copies_
     EquirectRows(EquirectRows&&) = default;

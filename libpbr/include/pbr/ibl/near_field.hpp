@@ -18,6 +18,7 @@ namespace pbr {
 /// An equirect less a constant, ready for sums with one near kernel. The picture must outlive this.
 class NearField {
   public:
+    /// Of a part of a picture, less its constant.
     NearField(const EquirectView& source, const PicturePart& part, const SplitKernel& split);
 
     /// The integral of near times (radiance - constant) over the part, constant over its texels, added to
