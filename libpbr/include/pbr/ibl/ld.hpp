@@ -90,8 +90,8 @@ LdTreeError ld_exact(const MomentTree& source, double alpha, double tolerance,
                      std::uint64_t& evaluations);
 
 /// The same sum over part of a sphere, not divided by anything: what the texels of `part` add to LD. Relative
-/// error below 1e-5; of texels that the horizon cuts, by 32 x 32 points, below 1e-4 of what a whole texel
-/// adds one texel higher.
+/// error below 1e-5; of texels that the horizon cuts, by 32 x 32 points, below 1e-4 of what a whole texel adds
+/// one texel higher.
 void ld_partial(const PatchBlocks& part, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations);
 
