@@ -22,6 +22,24 @@ double student_quantile(double degrees) {
            (3 * x7 + 19 * x5 + 17 * x3 - 15 * x) / (384 * degrees * degrees * degrees);
 }
 
+/// What all parts that could be drawn add up to.
+double sum_of_drawn(const TileSample& sample, std::span<const double> of_drawn) {
+    double sum = 0;
+    for (std::size_t i = 0; i < of_drawn.size(); ++i) sum += of_drawn[i] / sample.probability[i];
+    return of_drawn.empty() ? 0 : sum / static_cast<double>(of_drawn.size());
+}
+
+/// Half of its 95 % interval, by Student's t; two or more draws.
+double half_width(const TileSample& sample, std::span<const double> of_drawn, double sum) {
+    const double count = static_cast<double>(of_drawn.size());
+    double variance = 0;
+    for (std::size_t i = 0; i < of_drawn.size(); ++i) {
+        const double difference = of_drawn[i] / sample.probability[i] - sum;
+        variance += difference * difference;
+    }
+    return student_quantile(count - 1) * std::sqrt(variance / (count * (count - 1)));
+}
+
 }  // namespace
 
 TileSample choose_tiles(std::span<const double> brightness, int count, std::uint64_t seed) {
@@ -74,21 +92,22 @@ TileSample choose_tiles(std::span<const double> brightness, int count, std::uint
     return sample;
 }
 
+TotalEstimate estimate_balance(const TileSample& sample, std::span<const double> of_certain,
+                               std::span<const double> of_drawn) {
+    const double certain = std::accumulate(of_certain.begin(), of_certain.end(), 0.0);
+    const double drawn = sum_of_drawn(sample, of_drawn), value = certain + drawn;
+    if (of_drawn.size() < 2) return {value, {value, value}};
+    const double half = half_width(sample, of_drawn, drawn);
+    return {value, {value - half, value + half}};
+}
+
 TotalEstimate estimate_total(const TileSample& sample, std::span<const double> of_certain,
                              std::span<const double> of_drawn) {
     const double certain = std::accumulate(of_certain.begin(), of_certain.end(), 0.0);
-    if (of_drawn.empty()) return {certain, {certain, certain}};
-    const double count = static_cast<double>(of_drawn.size());
-    double mean = 0, variance = 0;
-    for (std::size_t i = 0; i < of_drawn.size(); ++i) mean += of_drawn[i] / sample.probability[i] / count;
-    for (std::size_t i = 0; i < of_drawn.size(); ++i) {
-        const double difference = of_drawn[i] / sample.probability[i] - mean;
-        variance += difference * difference;
-    }
-    if (!(mean > 0) || of_drawn.size() < 2) return {certain + mean, {certain, certain + mean}};
-    const double deviation = std::sqrt(variance / (count * (count - 1)));
-    const double factor = pbr::exp_exact(std::min(30.0, student_quantile(count - 1) * deviation / mean));
-    return {certain + mean, {certain + mean / factor, certain + mean * factor}};
+    const double drawn = sum_of_drawn(sample, of_drawn);
+    if (!(drawn > 0) || of_drawn.size() < 2) return {certain + drawn, {certain, certain + drawn}};
+    const double factor = pbr::exp_exact(std::min(30.0, half_width(sample, of_drawn, drawn) / drawn));
+    return {certain + drawn, {certain + drawn / factor, certain + drawn * factor}};
 }
 
 }  // namespace pbrbake::probe

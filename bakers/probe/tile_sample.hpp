@@ -32,7 +32,11 @@ struct TotalEstimate {
     std::pair<double, double> interval;  ///< 95 %; both the value where all parts were measured
 };
 
-/// `of_certain` and `of_drawn` >= 0 in the sample's order. The interval takes the logarithm of the drawn
+/// `of_certain` and `of_drawn`, of any sign, in the sample's order. The interval is Student's.
+TotalEstimate estimate_balance(const TileSample& sample, std::span<const double> of_certain,
+                               std::span<const double> of_drawn);
+
+/// The same of what is >= 0. The interval takes the logarithm of the drawn
 /// parts' sum for a Student's t, since errors are skewed: checked to hold the truth at least nine times in
 /// ten on baked probes with and without suns.
 TotalEstimate estimate_total(const TileSample& sample, std::span<const double> of_certain,

@@ -286,10 +286,8 @@ std::string DemoPage::level_table(const Environment& environment) const {
     }
     return "<h3>Error a level</h3>\n<p class=soft>Relative root mean square error: of stored texels, over "
            "their mean. "
-           "Energy: solid-angle weighted sum of all texels of the " +
-           environment.best().title +
-           " probe; filtering keeps it, so what "
-           "differs is noise, and that a level is sampled at its texels' centers.</p>\n" +
+           "Energy: what texels of the " +
+           environment.best().title + " probe hold more than exact ones, over the source's.</p>\n" +
            table.html();
 }
 

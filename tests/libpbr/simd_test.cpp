@@ -86,9 +86,10 @@ Results run_kernels() {
     resample_bilinear(equirect, 40, for_each_in_turn, results.bilinear);
     results.near.resize(150);
     results.bright.resize(150);
-    NearField(equirect, glm::dvec3(0.1), apart, SplitKernel(GgxZonalKernel(0.02), 0.2))
+    NearField(equirect, {apart, {0.1f, 0.1f, 0.1f}}, SplitKernel(GgxZonalKernel(0.02), 0.2))
         .add(directions, results.near);
-    BrightTexels(PatchBlocks(equirect, apart), 1e-3, false).integrate(0.1, directions, results.bright);
+    BrightTexels(PatchBlocks(equirect, apart), {0.1f, 0.1f, 0.1f}, 1e-3, false)
+        .integrate(0.1, directions, results.bright);
     const HarmonicSpectrum spectrum(equirect, {6, 1}, for_each_in_turn, {apart});
     for (int m = 0; m <= 6; ++m)
         results.spectrum.insert(results.spectrum.end(), spectrum.of_order(m).begin(),

@@ -108,16 +108,17 @@ std::vector<int> pairs_with(std::span<const CubeTexel> texels, int height) {
     return pairs;
 }
 
-/// As analyse_rings(rings_of()) of a picture that is black but for some texels, for the given pairs of rows.
-RingModes analyse_texels(const EquirectView& source, std::span<const CubeTexel> texels,
-                         const std::vector<int>& pairs, int bands, const ForEach& each) {
+/// As analyse_rings(rings_of()) of a picture that is black but for what a part lacks, for the given pairs of
+/// rows.
+RingModes analyse_texels(const EquirectView& source, const PicturePart& part, const std::vector<int>& pairs,
+                         int bands, const ForEach& each) {
     std::vector<SinCos> turns;  // by half texels
     for (int i = 0; i < 2 * source.width; ++i)
         turns.push_back(sin_cos_pi(static_cast<double>(i) / source.width));
     const std::vector<double> integrals = widths(source.width, bands);
     RingModes modes(bands + 1, static_cast<int>(pairs.size()));
     each(bands + 1, [&](int m) {
-        for (const CubeTexel& texel : texels) {
+        for (const CubeTexel& texel : part.without) {
             const int mirrored = source.height - 1 - texel.y;
             const auto pair = std::ranges::lower_bound(pairs, std::min(texel.y, mirrored)) - pairs.begin();
             const SinCos& turn =
@@ -126,7 +127,8 @@ RingModes analyse_texels(const EquirectView& source, std::span<const CubeTexel> 
             // A middle row counts as north and south.
             const double north = texel.y <= mirrored ? width : 0, south = texel.y >= mirrored ? width : 0;
             for (int channel = 0; channel < 3; ++channel) {
-                const double value = static_cast<double>(source.texel(texel.x, texel.y)[channel]);
+                const double value = static_cast<double>(source.texel(texel.x, texel.y)[channel]) -
+                                     static_cast<double>(part.constant[static_cast<std::size_t>(channel)]);
                 modes.part(m, 0, 2 * channel)[pair] += (north + south) * value * turn.cos;
                 modes.part(m, 0, 2 * channel + 1)[pair] -= (north + south) * value * turn.sin;
                 modes.part(m, 1, 2 * channel)[pair] += (north - south) * value * turn.cos;
@@ -164,7 +166,7 @@ HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, const HarmonicRul
                                      : std::vector<std::complex<double>>(centred.begin(), centred.end()),
                        each);
     } else {
-        const EquirectRows texels(source, part.without);
+        const EquirectRows texels(source, part);
         RingModes modes = analyse_rings(rings_of(source, texels, part.constant, bands_), each);
         std::vector<int> rows(static_cast<std::size_t>(source.height + 1) / 2);
         std::iota(rows.begin(), rows.end(), 0);
@@ -183,11 +185,11 @@ HarmonicSpectrum::HarmonicSpectrum(const CubeView& source, const HarmonicRule& r
     add_constant();
 }
 
-HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, std::span<const CubeTexel> texels,
+HarmonicSpectrum::HarmonicSpectrum(const EquirectView& source, const PicturePart& part,
                                    const HarmonicRule& rule, const ForEach& each)
     : HarmonicSpectrum(rule.bands, source.world_to_source, {}) {
-    const std::vector<int> pairs = pairs_with(texels, source.height);
-    RingModes modes = analyse_texels(source, texels, pairs, bands_, each);
+    const std::vector<int> pairs = pairs_with(part.without, source.height);
+    RingModes modes = analyse_texels(source, part, pairs, bands_, each);
     const RowPoints points = row_points(source.height, rule.points_a_row, pairs);
     integrate(modes, points.colatitudes_rad, points.weights, rule.points_a_row, each);
 }

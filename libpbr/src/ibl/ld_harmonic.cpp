@@ -114,19 +114,28 @@ std::array<double, 3> flux_of(const std::vector<RowLight>& rows) {
     return flux;
 }
 
-/// The light of all rows. Rows that hold some of `without`, which are by rows, are summed anew without these:
-/// to subtract them wouldn't do, since they may dwarf the rest.
+/// Leaves texels, which are by rows, out of the light of all rows, and returns the mean of the others. Rows
+/// that hold some are summed anew: to subtract them wouldn't do, since they may dwarf the rest.
 template <class View>
-void leave_out(const View& source, std::span<const CubeTexel> without, std::vector<RowLight>& rows) {
+std::array<float, 3> leave_out(const View& source, std::span<const CubeTexel> without,
+                               std::vector<RowLight>& rows) {
     const auto row_with = [&](const CubeTexel& texel) { return row_of_texel(source, texel); };
+    double solid_angle = 4 * std::numbers::pi;
     for (auto texel = without.begin(); texel != without.end();) {
         const int row = row_with(*texel);
         const float* rgb = row_of(source, row);
         std::vector<float> rest(rgb, rgb + 3L * row_width(source));
-        for (; texel != without.end() && row_with(*texel) == row; ++texel)
+        const std::vector<double> weights = solid_angles(source, row);
+        for (; texel != without.end() && row_with(*texel) == row; ++texel) {
             std::fill_n(&rest[static_cast<std::size_t>(texel->x) * 3], 3, 0.0f);
+            solid_angle -= weights[static_cast<std::size_t>(texel->x)];
+        }
         rows[static_cast<std::size_t>(row)] = light_of_row(source, row, rest.data());
     }
+    std::array<float, 3> mean;
+    std::ranges::transform(flux_of(rows), mean.begin(),
+                           [=](double flux) { return static_cast<float>(flux / solid_angle); });
+    return mean;
 }
 
 /// Texels, by rows, that hold more than their share of any channel's light.
@@ -161,7 +170,7 @@ LdHarmonic::LdHarmonic(const EquirectView& source, double smallest_alpha, double
     constexpr int kMostBands = 600;
     const HarmonicRule rule = prepare(source, source.height, smallest_alpha, kMostBands, each);
     if (bright_.size() > kManyBright) {
-        bright_spectrum_.emplace(source, bright_, rule, each);
+        bright_spectrum_.emplace(source, rest(), rule, each);
         bright_powers_ = bright_spectrum_->powers();
     }
 }
@@ -181,24 +190,20 @@ HarmonicRule LdHarmonic::prepare(const View& source, int height, double smallest
         rows[static_cast<std::size_t>(row)] = light_of_row(source, row, row_of(source, row));
     });
     bright_ = find_bright_texels(source, rows);
-    std::array<double, 3> flux = flux_of(rows);
+    const std::array<double, 3> flux = flux_of(rows);
+    ground_ = leave_out(source, bright_, rows);
     if (!bright_.empty()) {
         const double mean = (flux[0] + flux[1] + flux[2]) / (12 * std::numbers::pi);
-        bright_texels_.emplace(PatchBlocks(source, bright_), kHorizonShare * max_error_ * mean,
+        bright_texels_.emplace(PatchBlocks(source, bright_), ground_, kHorizonShare * max_error_ * mean,
                                max_error_ < kFineError);
-        leave_out(source, bright_, rows);
-        flux = flux_of(rows);
     }
-    PicturePart rest{bright_, {}};
-    for (std::size_t c = 0; c < 3; ++c)
-        rest.constant[c] = static_cast<float>(flux[c] / (4 * std::numbers::pi));
 
     // The narrowest lobe has the longest peak, the widest the sharpest kink.
     const int wanted = std::max(bands_for(smallest_alpha, max_error_), bands_for(1, max_error_));
     const int bands = std::min(wanted, most_bands);
     const double narrowest = smallest_alpha * wanted / bands;  // of the lobes left to harmonics
     const HarmonicRule rule = harmonic_rule(height, bands, narrowest, max_error_);
-    spectrum_.emplace(source, rule, each, rest);
+    spectrum_.emplace(source, rule, each, rest());
     powers_ = spectrum_->powers();
     return rule;
 }
@@ -233,10 +238,8 @@ LdHarmonic::Level::Level(const LdHarmonic& of, double alpha, const ForEach& each
     } else {
         const SplitKernel split(lobe, SplitKernel::radius_for(of.bands(), of.max_error_));
         kernel = zonal_far(split, of.bands() + 1);
-        const std::array<float, 3>& taken = of.spectrum_->constant();
-        const glm::dvec3 constant(taken[0], taken[1], taken[2]);
-        near_constant_ = constant * (1 - kernel[0]);
-        near_.emplace(of.equirect_, constant, of.bright_, split);
+        near_constant_ = glm::dvec3(of.ground_[0], of.ground_[1], of.ground_[2]) * (1 - kernel[0]);
+        near_.emplace(of.equirect_, of.rest(), split);
     }
     bands_ = band_limit(of, kernel, kernel_of_bright);
     const std::size_t kept = static_cast<std::size_t>(bands_) + 1;

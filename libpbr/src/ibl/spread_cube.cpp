@@ -17,24 +17,27 @@ struct Point {
     double rgb[3];
 };
 
-/// All points of one row of texels of a face; the texels left out count as black.
-void add_points(const CubeView& source, const std::array<float, 3>& constant, int face, int y,
-                const QuadratureRule& rule, int columns, int rows, std::span<const CubeTexel> without,
-                std::vector<Point>& points) {
-    const auto [left_out, end] = std::equal_range(without.begin(), without.end(), CubeTexel{face, 0, y},
-                                                  [](const CubeTexel& p, const CubeTexel& q) {
-                                                      return std::pair(p.face, p.y) < std::pair(q.face, q.y);
-                                                  });
-    std::vector<glm::dvec3> directions;
+/// All points of one row of texels of a face, less a constant; the texels left out have none.
+void add_points(const CubeView& source, const PicturePart& part, int face, int y, const QuadratureRule& rule,
+                int columns, int rows, std::vector<Point>& points) {
+    const auto [left_out, end] =
+        std::equal_range(part.without.begin(), part.without.end(), CubeTexel{face, 0, y},
+                         [](const CubeTexel& p, const CubeTexel& q) {
+                             return std::pair(p.face, p.y) < std::pair(q.face, q.y);
+                         });
+    std::vector<int> kept;
     for (int x = 0; x < source.size; ++x)
+        if (std::none_of(left_out, end, [x](const CubeTexel& texel) { return texel.x == x; }))
+            kept.push_back(x);
+    std::vector<glm::dvec3> directions;
+    for (const int x : kept)
         for (int j = 0; j < rule.size(); ++j)
             for (int i = 0; i < rule.size(); ++i)
                 directions.push_back(cube_vector(face, 2 * (x + rule.nodes[i]) / source.size - 1,
                                                  2 * (y + rule.nodes[j]) / source.size - 1));
     std::vector<glm::dvec2> at(directions.size());
     equirect_points(directions, at);
-    for (int x = 0; x < source.size; ++x) {
-        const bool black = std::any_of(left_out, end, [x](const CubeTexel& texel) { return texel.x == x; });
+    for (const int x : kept) {
         const std::size_t first = points.size();
         double sum = 0;
         for (int j = 0; j < rule.size(); ++j)
@@ -56,7 +59,7 @@ void add_points(const CubeView& source, const std::array<float, 3>& constant, in
             const double flux = points[k].rgb[0] / sum * solid_angle;
             for (std::size_t c = 0; c < 3; ++c)
                 points[k].rgb[c] =
-                    flux * ((black ? 0 : static_cast<double>(texel[c])) - static_cast<double>(constant[c]));
+                    flux * (static_cast<double>(texel[c]) - static_cast<double>(part.constant[c]));
         }
     }
 }
@@ -70,7 +73,7 @@ FluxGrid spread_cube(const CubeView& source, const PicturePart& part, int grid_c
     const QuadratureRule rule = gauss_legendre(points_a_side);
     std::vector<std::vector<Point>> of_row(static_cast<std::size_t>(6) * source.size);
     each(6 * source.size, [&](int i) {
-        add_points(source, part.constant, i / source.size, i % source.size, rule, columns, rows, part.without,
+        add_points(source, part, i / source.size, i % source.size, rule, columns, rows,
                    of_row[static_cast<std::size_t>(i)]);
     });
     // By grid rows, in the order of the texels, so that sums don't depend on who computes them.

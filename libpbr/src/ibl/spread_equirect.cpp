@@ -101,7 +101,7 @@ class RowSum {
 FluxGrid spread_equirect(const EquirectView& source, const PicturePart& part, int grid_rows, int grid_columns,
                          int points_a_row, const ForEach& each) {
     FluxGrid grid(grid_rows, grid_columns);
-    const EquirectRows rows(source, part.without);
+    const EquirectRows rows(source, part);
     const std::vector<std::vector<RowShare>> shares = row_shares(source.height, points_a_row, grid.rows());
     const bool keeps_columns = grid_columns == source.width;
     const std::vector<ColumnSum> columns =

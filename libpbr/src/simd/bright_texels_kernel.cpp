@@ -151,25 +151,36 @@ BrightGroup group_of(std::span<const glm::dvec3> directions) {
 
 }  // namespace
 
-BrightTexels::BrightTexels(PatchBlocks texels, double horizon_error, bool is_fine)
-    : texels_(std::move(texels)), horizon_error_(horizon_error), finer_(is_fine) {
-    PatchPoints points;
+BrightTexels::BrightTexels(PatchBlocks texels, const std::array<float, 3>& constant, double horizon_error,
+                           bool is_fine)
+    : texels_(std::move(texels)), constant_(constant), horizon_error_(horizon_error), finer_(is_fine) {
+    PatchPoints own;
     for (std::size_t order = 0; order < kKept; ++order)
         for (int texel = 0; texel < texels_.count(); ++texel) {
-            texels_.points(texel, static_cast<int>(order), points);
+            points(texel, static_cast<int>(order), own);
             PatchPoints& all = kept_[order];
-            for (const auto& [to, from] : {std::pair{&all.x, &points.x},
-                                           {&all.y, &points.y},
-                                           {&all.z, &points.z},
-                                           {&all.weight, &points.weight},
-                                           {&all.r, &points.r},
-                                           {&all.g, &points.g},
-                                           {&all.b, &points.b}})
+            for (const auto& [to, from] : {std::pair{&all.x, &own.x},
+                                           {&all.y, &own.y},
+                                           {&all.z, &own.z},
+                                           {&all.weight, &own.weight},
+                                           {&all.r, &own.r},
+                                           {&all.g, &own.g},
+                                           {&all.b, &own.b}})
                 to->insert(to->end(), from->begin(), from->end());
         }
     by_height_.resize(static_cast<std::size_t>(texels_.count()));
     std::iota(by_height_.begin(), by_height_.end(), 0);
     std::ranges::stable_sort(by_height_, {}, [&](int texel) { return texels_.cone(texel).axis.y; });
+}
+
+void BrightTexels::points(int texel, int order_index, PatchPoints& points) const {
+    texels_.points(texel, order_index, points);
+    const auto take = [](float constant, std::vector<float>& values) {
+        for (float& value : values) value -= constant;
+    };
+    take(constant_[0], points.r);
+    take(constant_[1], points.g);
+    take(constant_[2], points.b);
 }
 
 /// Directions in up to four groups that lie together, and their sums of one kernel.
@@ -265,7 +276,7 @@ class BrightTexels::Sum {
                 const std::size_t at = static_cast<std::size_t>(texel) * count;
                 add(of_.kept_[static_cast<std::size_t>(index)], at, at + count, groups_[g]);
             } else {
-                of_.texels_.points(texel, index, fresh_);
+                of_.points(texel, index, fresh_);
                 add(fresh_, 0, fresh_.size(), groups_[g]);
             }
         }

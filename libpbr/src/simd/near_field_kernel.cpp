@@ -183,15 +183,13 @@ NearField::Points points_of(const EquirectView& source, int order) {
 
 }  // namespace
 
-NearField::NearField(const EquirectView& source, const glm::dvec3& constant,
-                     std::span<const CubeTexel> without, const SplitKernel& split)
+NearField::NearField(const EquirectView& source, const PicturePart& part, const SplitKernel& split)
     : source_(source),
-      constant_{static_cast<float>(constant.x), static_cast<float>(constant.y),
-                static_cast<float>(constant.z)},
+      constant_(part.constant),
       split_(split),
       radius_(split.radius()),
       texel_angle_(std::max(2 * kPi / source.width, kPi / source.height)),
-      rows_(source, without) {
+      rows_(source, part) {
     // Gauss-Legendre over a texel of angle h converges once h is well below the distance of the kernel's
     // poles, about hypot(2 alpha, angle); of lobes narrower than texels it is that of the texel's edge.
     const double poles = 2 * split.kernel().alpha(), margin = poles < texel_angle_ ? texel_angle_ / 2 : 0;

@@ -25,7 +25,7 @@ void expect_sums(const PatchBlocks& texels) {
         std::vector<double> found(at.size() * 3), truth(at.size() * 3);
         std::uint64_t evaluations = 0;
         ld_partial(texels, alpha, at, truth, evaluations);
-        EXPECT_GT(BrightTexels(texels, 0, true).integrate(alpha, at, found), 0u);
+        EXPECT_GT(BrightTexels(texels, {}, 0, true).integrate(alpha, at, found), 0u);
         for (std::size_t i = 0; i < found.size(); ++i)
             ASSERT_NEAR(found[i], truth[i], 2e-5 * truth[i]) << alpha << " " << i / 3;
     }
@@ -49,7 +49,7 @@ TEST(BrightTexels, NearAndFarPartsMakeTheWhole) {
     for (int i = 0; i < 64; ++i) apart.push_back({0, static_cast<int>(128 * random_unit(9, i)), i});
     const PatchBlocks texels(EquirectView{picture.data(), 128, 64}, apart);
     const std::vector<glm::dvec3> at = directions(texels);
-    const BrightTexels bright(texels, 0, true);
+    const BrightTexels bright(texels, {}, 0, true);
     for (const double alpha : {0.04, 0.16})
         for (const double radius : {0.1, 0.4}) {
             const SplitKernel split(GgxZonalKernel(alpha), radius);

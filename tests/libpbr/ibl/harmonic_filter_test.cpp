@@ -90,34 +90,46 @@ TEST(HarmonicSpectrum, OfOneTexelIsThatOfAPointWhereverItLies) {
     }
 }
 
-TEST(HarmonicSpectrum, LeavesOutTheTexelsItIsTold) {
-    std::vector<float> picture = noise_picture(32, 16);
-    std::vector<float> without = picture;
+TEST(HarmonicSpectrum, TakesTexelsLeftOutForTheConstant) {
     const std::vector<CubeTexel> texels{{0, 3, 2}, {0, 30, 2}, {0, 7, 13}};
+    const std::vector<float> picture = noise_picture(32, 16);
+    const PicturePart part{texels, {0.2f, 0.4f, 0.6f}}, whole{{}, part.constant};
+    std::vector<float> without = picture;
     for (const CubeTexel& texel : texels)
-        for (std::size_t c = 0; c < 3; ++c)
-            without[(static_cast<std::size_t>(texel.y) * 32 + texel.x) * 3 + c] = 0;
-    const HarmonicSpectrum a(EquirectView{picture.data(), 32, 16}, {8, 1}, for_each_in_turn, {texels});
-    const HarmonicSpectrum b(EquirectView{without.data(), 32, 16}, {8, 1}, for_each_in_turn);
+        std::ranges::copy(part.constant, &without[(static_cast<std::size_t>(texel.y) * 32 + texel.x) * 3]);
+    const HarmonicSpectrum a(EquirectView{picture.data(), 32, 16}, {8, 1}, for_each_in_turn, part);
+    const HarmonicSpectrum b(EquirectView{without.data(), 32, 16}, {8, 1}, for_each_in_turn, whole);
     for (int m = 0; m <= 8; ++m)
         for (std::size_t i = 0; i < a.of_order(m).size(); ++i) EXPECT_EQ(a.of_order(m)[i], b.of_order(m)[i]);
 }
 
-TEST(HarmonicSpectrum, OfSomeTexelsIsThatOfAPictureBlackButForThem) {
+TEST(HarmonicSpectrum, OfACubeTakesTexelsLeftOutForTheConstant) {
+    const std::vector<CubeTexel> texels{{0, 3, 2}, {0, 6, 2}, {5, 7, 7}};
+    const std::vector<float> cube = noise_cube(8);
+    const PicturePart part{texels, {0.2f, 0.4f, 0.6f}}, whole{{}, part.constant};
+    std::vector<float> without = cube;
+    for (const CubeTexel& texel : texels)
+        std::ranges::copy(part.constant, &without[((texel.face * 8 + texel.y) * 8 + texel.x) * 3]);
+    const HarmonicRule rule{8, 2, 32, 64};
+    const HarmonicSpectrum a(CubeView{cube.data(), 8}, rule, for_each_in_turn, part);
+    const HarmonicSpectrum b(CubeView{without.data(), 8}, rule, for_each_in_turn, whole);
+    for (int m = 0; m <= 8; ++m)
+        for (std::size_t i = 0; i < a.of_order(m).size(); ++i) EXPECT_EQ(a.of_order(m)[i], b.of_order(m)[i]);
+}
+
+TEST(HarmonicSpectrum, OfWhatAPartLacksIsTheRest) {
     for (const int height : {16, 17}) {  // without and with a middle row
         const std::vector<float> picture = noise_picture(32, height);
         const std::vector<CubeTexel> texels{{0, 3, 0}, {0, 0, 2}, {0, 30, 2}, {0, 31, 8}, {0, 7, height - 3}};
-        std::vector<float> alone(picture.size());
-        for (const CubeTexel& texel : texels) {
-            const std::size_t at = (static_cast<std::size_t>(texel.y) * 32 + texel.x) * 3;
-            std::copy_n(&picture[at], 3, &alone[at]);
-        }
+        const PicturePart part{texels, {0.2f, 0.4f, 0.6f}}, whole{{}, part.constant};
         const HarmonicRule rule{12, 2};
-        const HarmonicSpectrum a(EquirectView{picture.data(), 32, height}, texels, rule, for_each_in_turn);
-        const HarmonicSpectrum b(EquirectView{alone.data(), 32, height}, rule, for_each_in_turn);
+        const EquirectView view{picture.data(), 32, height};
+        const HarmonicSpectrum without(view, rule, for_each_in_turn, part),
+            all(view, rule, for_each_in_turn, whole), lacking(view, part, rule, for_each_in_turn);
         for (int m = 0; m <= rule.bands; ++m)
-            for (std::size_t i = 0; i < a.of_order(m).size(); ++i)
-                EXPECT_NEAR(a.of_order(m)[i], b.of_order(m)[i], 1e-14) << height << " " << m;
+            for (std::size_t i = 0; i < all.of_order(m).size(); ++i)
+                EXPECT_NEAR(without.of_order(m)[i] + lacking.of_order(m)[i], all.of_order(m)[i], 1e-14)
+                    << height << " " << m;
     }
 }
 

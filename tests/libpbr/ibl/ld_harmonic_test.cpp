@@ -55,6 +55,14 @@ std::vector<Picture> pictures() {
     return all;
 }
 
+/// Texels of a level, faces one after the other.
+std::vector<glm::dvec3> level_of(int size) {
+    std::vector<glm::dvec3> directions;
+    for (int i = 0; i < 6 * size * size; ++i)
+        directions.push_back(cubemap_texel_direction({i / (size * size), i % size, i / size % size}, size));
+    return directions;
+}
+
 struct Errors {
     double rms;      ///< over the mean
     double largest;  ///< over the largest value
@@ -232,17 +240,24 @@ TEST(LdHarmonic, ASunLeftInIsASunTakenOutAndPutBack) {
     std::vector<glm::dvec3> directions{equirect_direction(100.5 / 256, 30.5 / 128)};
     for (int i = 0; i < 100; ++i) directions.push_back(random_direction(2, i));
     const double mean = 1e7 * equirect_texel_solid_angle(256, 128, 30) / (4 * std::numbers::pi);
-    for (const double alpha : {0.04, 0.5}) {
-        const std::vector<float> a = filtered({with.view(), 0.04, 1e-3, for_each_in_turn}, alpha, directions);
-        const std::vector<float> b =
-            filtered({without.view(), 0.04, 1e-3, for_each_in_turn}, alpha, directions);
-        std::vector<double> of_sun(a.size()), behind_sun(a.size());
-        std::uint64_t evaluations = 0;
-        ld_partial(PatchBlocks(with.view(), sun), alpha, directions, of_sun, evaluations);
-        ld_partial(PatchBlocks(without.view(), sun), alpha, directions, behind_sun, evaluations);
-        for (std::size_t i = 0; i < a.size(); ++i)
-            EXPECT_NEAR(a[i], b[i] + of_sun[i] - behind_sun[i], 1e-4 * mean + 1e-5 * of_sun[i]) << i;
-    }
+    for (const double max_error : {1e-3, 1e-4})
+        for (const double alpha : {0.04, 0.5, 1.0}) {
+            const std::vector<float> a =
+                filtered({with.view(), 0.04, max_error, for_each_in_turn}, alpha, directions);
+            const std::vector<float> b =
+                filtered({without.view(), 0.04, max_error, for_each_in_turn}, alpha, directions);
+            std::vector<double> of_sun(a.size()), behind_sun(a.size());
+            std::uint64_t evaluations = 0;
+            ld_partial(PatchBlocks(with.view(), sun), alpha, directions, of_sun, evaluations);
+            ld_partial(PatchBlocks(without.view(), sun), alpha, directions, behind_sun, evaluations);
+            for (std::size_t i = 0; i < a.size(); ++i) {
+                // A horizon through the sun takes its share of the error, over the mean; else it is that of
+                // the sun's own points, and what the sky rings for what its mean isn't.
+                const bool is_cut = std::abs(glm::dot(directions[i / 3], directions[0])) < 0.025;
+                const double allowed = is_cut ? 1e-4 * mean : 3e-5 * of_sun[i] + 2e-5;
+                EXPECT_NEAR(a[i], b[i] + of_sun[i] - behind_sun[i], allowed) << i;
+            }
+        }
 }
 
 TEST(LdHarmonic, OneTexelBecomesARoundSpotWhereverItLies) {
@@ -289,10 +304,7 @@ TEST(LdHarmonic, EveryLevelHoldsTheLightOfThePicture) {
                         static_cast<double>(picture.view().texel(x, y)[1]);
         const LdHarmonic harmonic(picture.view(), 0.04, 1e-3, for_each_in_turn);
         constexpr int kSize = 128;
-        std::vector<glm::dvec3> directions;
-        for (int i = 0; i < 6 * kSize * kSize; ++i)
-            directions.push_back(
-                cubemap_texel_direction({i / (kSize * kSize), i % kSize, i / kSize % kSize}, kSize));
+        const std::vector<glm::dvec3> directions = level_of(kSize);
         for (const double alpha : {0.04, 0.3, 1.0}) {
             const std::vector<float> found = filtered(harmonic, alpha, directions);
             double sum = 0;
@@ -423,27 +435,40 @@ TEST(LdHarmonic, MeetsAnyErrorOnGeneratedPictures) {
 
 TEST(LdHarmonic, StaysAboveAnEvenGroundWhateverStandsOutOfIt) {
     // LD of ground plus light is ground plus what isn't negative: what falls below is ringing.
+    const std::vector<glm::dvec3> directions = level_of(32);
     for (const int count : {1, 7, 40, 300})
         for (const double spread : {0.0, 8.0}) {
             const Picture picture = random_lamps(128, count, 1, spread, 5);
-            const LdHarmonic harmonic(picture.view(), 0.04, 1e-3, for_each_in_turn);
-            std::vector<glm::dvec3> directions;
-            for (int i = 0; i < 6 * 32 * 32; ++i)
-                directions.push_back(cubemap_texel_direction({i / 1024, i % 32, i / 32 % 32}, 32));
-            for (const double alpha : {0.04, 0.16, 1.0}) {
-                const std::vector<float> found = filtered(harmonic, alpha, directions);
-                const auto [lowest, highest] = std::ranges::minmax(found);
-                // Of a wide lobe's peak that is less than the error asked for.
-                const float allowed = std::max(1e-5f * highest, alpha > 0.1 ? 1e-3f * 0.1f : 0);
-                EXPECT_GT(lowest, 0.1f - allowed) << count << " " << spread << " " << alpha;
+            for (const double max_error : {1e-2, 1e-3, 1e-4}) {
+                const LdHarmonic harmonic(picture.view(), 0.04, max_error, for_each_in_turn);
+                for (const double alpha : {0.04, 0.16, 1.0}) {
+                    const std::vector<float> found = filtered(harmonic, alpha, directions);
+                    const auto [lowest, highest] = std::ranges::minmax(found);
+                    // Equal lamps are all apart. Dim ones beside much brighter ones aren't, and may ring by
+                    // the error asked for.
+                    const double allowed = spread > 0 ? max_error * 0.1 : 1e-5 * static_cast<double>(highest);
+                    EXPECT_GT(lowest, 0.1 - allowed) << count << " " << spread << " " << alpha;
+                }
             }
         }
 }
 
+TEST(LdHarmonic, LeavesAnEvenGroundEvenAroundASun) {
+    const std::vector<glm::dvec3> directions = level_of(32);
+    const Picture picture = random_lamps(128, 1, 1, 0, 5);
+    std::vector<float> cube(std::size_t{6} * 32 * 32 * 3, 0.1f);
+    cube[3000] = cube[3001] = cube[3002] = 1e4f;
+    const LdHarmonic of_picture(picture.view(), 0.04, 1e-3, for_each_in_turn);
+    const LdHarmonic of_cube(CubeView{cube.data(), 32}, 0.04, 1e-3, for_each_in_turn);
+    for (const LdHarmonic* harmonic : {&of_picture, &of_cube})
+        for (const double alpha : {0.04, 0.16, 1.0}) {
+            EXPECT_EQ(harmonic->level(alpha, for_each_in_turn).bands(), 0);  // nothing is left to ring
+            EXPECT_NEAR(std::ranges::min(filtered(*harmonic, alpha, directions)), 0.1f, 1e-7f) << alpha;
+        }
+}
+
 TEST(LdHarmonic, ManyLampsCostLittleMoreThanSome) {
-    std::vector<glm::dvec3> directions;
-    for (int i = 0; i < 6 * 64 * 64; ++i)
-        directions.push_back(cubemap_texel_direction({i / 4096, i % 64, i / 64 % 64}, 64));
+    const std::vector<glm::dvec3> directions = level_of(64);
     std::vector<float> found(directions.size() * 3);
     std::vector<std::uint64_t> evaluations;
     for (const int count : {16, 90, 720}) {

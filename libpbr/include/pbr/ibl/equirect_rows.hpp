@@ -1,6 +1,7 @@
 #pragma once
-// Rows of an equirect without some of its texels.
+// Pictures without some of their texels.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -9,12 +10,20 @@
 
 namespace pbr {
 
-/// An equirect in which some texels are black. Rows that hold any are copies, the others the picture's own:
-/// it must outlive this.
+/// What is taken from all texels before a sum over them and put back after it: of a picture of that value
+/// nothing is left to err; best is a mean. And which texels are left out (face 0 of an equirect, rows
+/// ascending): they count as that constant, so that no holes are left to ring.
+struct PicturePart {
+    std::span<const CubeTexel> without;
+    std::array<float, 3> constant{};
+};
+
+/// The rows of an equirect, the texels that a part is without being its constant. Rows that hold any are
+/// copies, the others the picture's own: it must outlive this.
 class EquirectRows {
   public:
-    /// `black` are of face 0, rows ascending.
-    EquirectRows(const EquirectView& source, std::span<const CubeTexel> black);
+    /// Copies what it must.
+    EquirectRows(const EquirectView& source, const PicturePart& part);
     EquirectRows(const EquirectRows&) = delete;  // rows_ points into copies_
     EquirectRows(EquirectRows&&) = default;
 

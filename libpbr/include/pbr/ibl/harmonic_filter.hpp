@@ -17,6 +17,7 @@
 
 #include "pbr/ibl/cubemap.hpp"
 #include "pbr/ibl/environment.hpp"
+#include "pbr/ibl/equirect_rows.hpp"
 #include "pbr/numerics/for_each.hpp"
 
 namespace pbr {
@@ -38,14 +39,6 @@ struct HarmonicRule {
 /// each; by 5e-6 in azimuth, so that a turned picture has the same values, turned.
 HarmonicRule harmonic_rule(int height, int bands, double alpha, double max_error);
 
-/// Which texels are left out (face 0 of an equirect, rows ascending): they count as black. And what is
-/// taken from all texels before the transform and put back after it: of a picture of that value nothing is
-/// left to err; best is a mean.
-struct PicturePart {
-    std::span<const CubeTexel> without;
-    std::array<float, 3> constant{};
-};
-
 /// The coefficients E_lm of a picture's three channels for degrees 0 … bands and orders 0 … l, real and
 /// imaginary parts, to orthonormal harmonics without the Condon-Shortley phase in the picture's own (u, v):
 /// azimuth 2 pi u, colatitude pi v. Orders below 0 are their conjugates, the picture being real.
@@ -65,9 +58,10 @@ class HarmonicSpectrum {
     HarmonicSpectrum(const CubeView& source, const HarmonicRule& rule, const ForEach& each,
                      const PicturePart& part = {});
 
-    /// Transforms some texels of an equirect (face 0), all others being black; rows are never spread over a
-    /// grid. Time grows with their number and with that of the rows they lie in.
-    HarmonicSpectrum(const EquirectView& source, std::span<const CubeTexel> texels, const HarmonicRule& rule,
+    /// Transforms what such a part lacks of an equirect: what the texels left out differ from the constant,
+    /// all others being black. Rows are never spread over a grid. Time grows with the number of texels and
+    /// with that of the rows they lie in.
+    HarmonicSpectrum(const EquirectView& source, const PicturePart& part, const HarmonicRule& rule,
                      const ForEach& each);
 
     /// The highest degree.

@@ -2,10 +2,11 @@
 // LD by spherical harmonics, with the brightest texels apart.
 //
 // A picture's few texels that hold much of its light - suns, lamps - would need high degrees, and ring where
-// these are cut off. They are taken out, and added to each output texel by the exact sum; what is left is
-// filtered by ibl/harmonic_filter.hpp. Of lobes so narrow that this would take more than 600 degrees, an
-// equirect's part near the axis is summed texel by texel instead (ibl/near_field.hpp). All parts are the
-// integral of the kernel over constant texels, so the estimator converges to LdEstimator::exact.
+// these are cut off. They are taken out, down to the mean of all others since holes would ring as well, and
+// added to each output texel by the exact sum; what is left is filtered by ibl/harmonic_filter.hpp. Of lobes
+// so narrow that this would take more than 600 degrees, an equirect's part near the axis is summed texel by
+// texel instead (ibl/near_field.hpp). All parts are the integral of the kernel over constant texels, so the
+// estimator converges to LdEstimator::exact.
 
 #include <array>
 #include <cstdint>
@@ -87,15 +88,17 @@ class LdHarmonic {
     template <class View>
     HarmonicRule prepare(const View& source, int height, double smallest_alpha, int most_bands,
                          const ForEach& each);
-    glm::dvec3 mean() const;      ///< of what is left
+    PicturePart rest() const { return {bright_, ground_}; }  ///< what is left
+    glm::dvec3 mean() const;                                 ///< of what is left
     double sphere_mean2() const;  ///< its square, of all channels together, times their spheres
 
     double max_error_;
     std::vector<CubeTexel> bright_;
+    std::array<float, 3> ground_;  ///< the mean of all others
     std::optional<BrightTexels> bright_texels_;
     std::optional<HarmonicSpectrum> spectrum_;
     std::vector<double> powers_;                       ///< of its degrees
-    std::optional<HarmonicSpectrum> bright_spectrum_;  ///< of bright texels, if they are many
+    std::optional<HarmonicSpectrum> bright_spectrum_;  ///< above the ground, of bright texels, if many
     std::vector<double> bright_powers_;
     EquirectView equirect_;  ///< if it is one
 };

@@ -18,10 +18,10 @@ namespace pbr {
 /// An equirect less a constant, ready for sums with one near kernel. The picture must outlive this.
 class NearField {
   public:
-    /// Texels in `without` (face 0, rows ascending) count as black.
-    NearField(const EquirectView& source, const glm::dvec3& constant, std::span<const CubeTexel> without,
-              const SplitKernel& split);
-    /// The integral of near times (radiance - constant) over the picture, constant over its texels, added to
+    /// Of a part of a picture, less its constant.
+    NearField(const EquirectView& source, const PicturePart& part, const SplitKernel& split);
+
+    /// The integral of near times (radiance - constant) over the part, constant over its texels, added to
     /// rgb[0] ... rgb[2] for each of `directions` (unit vectors, world). By Gauss-Legendre points, about four
     /// for each width of a texel over its distance from the kernel's poles: the error, as a share of the
     /// picture's contrast times the near part's own share of the lobe, is below 5e-4 (root mean square).
