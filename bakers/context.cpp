@@ -4,21 +4,6 @@
 #include <utility>
 
 namespace pbrbake {
-namespace {
-
-// oneTBB orders the caller's writes before the bodies and the bodies before the caller's return, but
-// ThreadSanitizer can't see into the library. Under it, and only there, the same order is spelt out in
-// atomics that it does see.
-#if defined(__SANITIZE_THREAD__)
-std::atomic<int> visible_order{0};
-void publish() { visible_order.fetch_add(1, std::memory_order_release); }
-void observe() { visible_order.load(std::memory_order_acquire); }
-#else
-void publish() {}
-void observe() {}
-#endif
-
-}  // namespace
 
 Context::Context(int threads, Accuracy accuracy, ProgressSink progress, const std::atomic<bool>* cancel)
     : threads_(std::max(1, threads)),
@@ -45,20 +30,7 @@ void Context::parallel_for(std::int64_t count, std::int64_t grain,
         return;
     }
     if (!workers_) workers_ = std::make_unique<Workers>(threads_);
-    struct PublishAtEnd {  // also when a body throws
-        ~PublishAtEnd() { publish(); }
-    };
-    struct ObserveAtEnd {
-        ~ObserveAtEnd() { observe(); }
-    };
-    const std::function<void(std::int64_t)> task = [&](std::int64_t chunk) {
-        observe();
-        const PublishAtEnd end;
-        run_chunk(chunk);
-    };
-    publish();
-    const ObserveAtEnd end;
-    workers_->for_each(chunks, task);
+    workers_->for_each(chunks, run_chunk);
 }
 
 void Context::count(std::string_view effect, std::uint64_t evaluations) {

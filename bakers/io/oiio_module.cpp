@@ -28,6 +28,12 @@ PictureSpec describe(const OIIO::ImageSpec& spec) {
     return picture;
 }
 
+/// OpenImageIO gathers a line an error.
+std::string one_line(std::string errors) {
+    for (std::size_t at; (at = errors.find('\n')) != std::string::npos;) errors.replace(at, 1, "; ");
+    return errors;
+}
+
 class OiioReader : public PictureReader {
   public:
     OiioReader(std::span<const std::byte> file, bool with_alpha)
@@ -36,7 +42,8 @@ class OiioReader : public PictureReader {
     bool open(const char* format, std::string& error) {
         input_ = OIIO::ImageInput::create(format);
         if (!input_) {
-            error = "OpenImageIO has no reader for " + std::string(format) + ": " + OIIO::geterror();
+            error =
+                "OpenImageIO has no reader for " + std::string(format) + ": " + one_line(OIIO::geterror());
             return false;
         }
         OIIO::ImageSpec config;
@@ -45,7 +52,7 @@ class OiioReader : public PictureReader {
         input_->set_ioproxy(&proxy_);
         OIIO::ImageSpec spec;
         if (!input_->open("memory." + std::string(format), spec, config)) {
-            error = input_->geterror();
+            error = one_line(input_->geterror());
             return false;
         }
         if (spec.depth > 1 || spec.deep) {
@@ -75,7 +82,7 @@ class OiioReader : public PictureReader {
                                                           decoded_channels(), OIIO::TypeDesc::FLOAT, texels);
             // A truncated TIFF "succeeds" and only leaves an error behind.
             if (read && !input_->has_error()) return true;
-            error = input_->has_error() ? input_->geterror() : "could not be decoded";
+            error = input_->has_error() ? one_line(input_->geterror()) : "could not be decoded";
         } catch (const std::exception& failure) {
             error = failure.what();
         }
@@ -116,7 +123,7 @@ bool write_png(const OIIO::ImageSpec& spec, const void* texels, std::vector<std:
         configure_once();
         const auto output = OIIO::ImageOutput::create("png");
         if (!output) {
-            error = OIIO::geterror();
+            error = one_line(OIIO::geterror());
             return false;
         }
         std::vector<unsigned char> buffer;
@@ -124,7 +131,7 @@ bool write_png(const OIIO::ImageSpec& spec, const void* texels, std::vector<std:
         output->set_ioproxy(&proxy);
         if (!output->open("memory.png", spec) || !output->write_image(spec.format, texels) ||
             !output->close()) {
-            error = output->geterror();
+            error = one_line(output->geterror());
             return false;
         }
         const auto* bytes = reinterpret_cast<const std::byte*>(buffer.data());

@@ -104,7 +104,7 @@ std::vector<int> pairs_with(std::span<const CubeTexel> texels, int height) {
     std::vector<int> pairs;
     for (const CubeTexel& texel : texels) pairs.push_back(std::min(texel.y, height - 1 - texel.y));
     std::ranges::sort(pairs);
-    pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
 

@@ -1,5 +1,6 @@
 #include "bakers/run/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -75,6 +76,24 @@ TEST(WriteAtomically, LeavesTheOldFileWhenAWriteFails) {
     EXPECT_EXIT(write_beyond_the_limit(), testing::ExitedWithCode(5), "");
     EXPECT_EQ(test::read_file(folder / "a.txt"), "old");
     EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(WriteAtomically, LeavesNothingBehindWhenKilled) {
+    const test::TemporaryFolder folder;
+    const int nameless = ::open(folder.path().c_str(), O_WRONLY | O_TMPFILE, 0600);
+    if (nameless < 0) GTEST_SKIP() << "this file system knows no files without a name";
+    ::close(nameless);
+    const auto die_while_writing = [&] {
+        const rlimit none{};
+        ::setrlimit(RLIMIT_CORE, &none);
+        rlimit limit{};
+        limit.rlim_cur = limit.rlim_max = 1000;
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        ::signal(SIGXFSZ, SIG_DFL);
+        write_atomically(folder / "a.txt", std::string(2000, 'x'));
+    };
+    EXPECT_EXIT(die_while_writing(), testing::KilledBySignal(SIGXFSZ), "");
+    EXPECT_EQ(files_in(folder.path()), 0);
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ class Material {
     /// Calls visit(effect) for every effect in order.
     template <class Visit>
     void each(const Visit& visit) const {
-        std::apply([&visit](const Effects&... effects) { (visit(effects), ...); }, effects_);
+        std::apply([&](const Effects&... effects) { (visit(effects), ...); }, effects_);
     }
 
     Surface<T> surface_;
