@@ -194,7 +194,8 @@ class SetBake {
     /// dielectric, what is left for dielectric f0 can be twenty times as much, and would take level 0's
     /// codes.
     float specular_unit() const {
-        return std::max(static_cast<float>(params_.dielectric_f0), *std::ranges::max_element(largest_f0_));
+        return store_.residual_unit(
+            std::max(static_cast<float>(params_.dielectric_f0), *std::ranges::max_element(largest_f0_)));
     }
 
     void add_level() {

@@ -1,7 +1,9 @@
 #include "bakers/texture/store.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbrbake::texture {
@@ -14,6 +16,13 @@ Image empty_image(std::string name, std::size_t channels, Transfer transfer) {
     image.channels.assign(kNames.begin(), kNames.begin() + static_cast<std::ptrdiff_t>(channels));
     image.transfer = transfer;
     return image;
+}
+
+/// IEC 61966-2-1, of an 8-bit code.
+float srgb_value(int code) {
+    const double encoded = code / 255.;
+    return static_cast<float>(
+        encoded <= .04045 ? encoded / 12.92 : pbr::exp_exact(2.4 * pbr::log_exact((encoded + .055) / 1.055)));
 }
 
 }  // namespace
@@ -40,6 +49,22 @@ void Store::put(std::size_t image, std::size_t channel, std::size_t to, std::spa
     const std::size_t step = images_[image].channels.size();
     float* out = images_[image].levels.back().texels.data() + to * step + channel;
     for (std::size_t i = 0; i < values.size(); ++i) out[i * step] = values[i];
+}
+
+float Store::residual_unit(float largest) const {
+    constexpr std::size_t kStep = 7;  // every seventh number, of all channels in turn
+    constexpr float kFinest = 65535, kMost = 1.05f;
+    const std::vector<float>& values = images_[residual_].levels.front().texels;
+    std::vector<std::uint32_t> histogram(1 << 16);
+    for (std::size_t i = 0; i < values.size(); i += kStep)
+        ++histogram[static_cast<std::size_t>(std::sqrt(values[i]) * kFinest + .5f)];
+    const auto commonest = std::ranges::max_element(histogram) - histogram.begin();
+    const float root = static_cast<float>(commonest) / kFinest;
+    for (int code = 255; code > 0; --code) {
+        const float unit = root * root / srgb_value(code);
+        if (unit >= largest) return unit <= kMost * largest ? unit : largest;
+    }
+    return largest;
 }
 
 void Store::divide_residual(float unit) {

@@ -17,7 +17,11 @@ class Store {
     /// Texels from `to` on of one channel, in the newest level. Texels of different rows may be put at a
     /// time.
     void put(std::size_t image, std::size_t channel, std::size_t to, std::span<const float> values);
-    /// Divides dielectric f0, the residual, by the set's unit, which is known last; ends at 1.
+    /// A unit for dielectric f0, the residual: at least `largest`, and up to a twentieth more where the f0
+    /// that most texels have is an 8-bit code exactly then. What many texels share would else be off by the
+    /// same part of a code in all of them.
+    float residual_unit(float largest) const;
+    /// Divides the residual by the set's unit, which is known last; ends at 1.
     void divide_residual(float unit);
     /// Adds what triangular noise of one code's width takes from banding, where codes are 8 bits.
     void dither();
