@@ -118,12 +118,16 @@ void MetalRows::regularise_run(int row, int begin, int end, float* out) const {
     for (int i = 0; i < count; ++i) {
         const float doubt = 1 - sure[i] / kSure;
         const float mean = sum[static_cast<std::size_t>(i)] / weights[static_cast<std::size_t>(i)];
-        // The base colour of so much metal would reflect more than f0, unless diffuse is dimmed.
-        float most = 1;
+        // No more than surely has a material: with base colour f0 / m no dielectric f0 is left in the least
+        // channel, and in no other more than f0 / (1 - m), which lets the rest of the light through to
+        // diffuse.
+        float most = 1, brightest = 0;
         for (std::size_t c = 0; c < 3; ++c) {
             const float d = here[diffuse + c][i], s = here[f0 + c][i];
             most = std::min(most, (s + kLeast) / (s + d + kLeast));
+            brightest = std::max(brightest, s);
         }
+        most *= 1 - brightest;
         out[begin + i] = std::min(own[i] + doubt * (mean - own[i]), std::max(most, own[i]));
     }
 }
