@@ -8,13 +8,10 @@
 #include "bakers/texture/difference.hpp"
 #include "bakers/texture/gltf_document.hpp"
 #include "bakers/texture/material.hpp"
-#include "bakers/texture/pack.hpp"
-#include "pbr/numerics/sequence.hpp"
+#include "bakers/texture/store.hpp"
 
 namespace pbrbake::texture {
 namespace {
-
-using Materials = std::vector<pbr::MetallicMaterial<float>>;
 
 constexpr std::string_view kGltfEnd = ".gltf";
 
@@ -25,20 +22,6 @@ bool has_pictures(const TextureParams& params) {
                               &params.emissive, &params.base_color, &params.metallic_roughness,
                               &params.metallic};
     return std::ranges::any_of(pictures, [](const std::string* path) { return !path->empty(); });
-}
-
-Image named_image(const PackedImage& packed) {
-    static const std::array<const char*, 4> kNames{"R", "G", "B", "A"};
-    Image image;
-    image.name = packed.name;
-    for (std::size_t c = 0; c < packed.channels.size(); ++c) image.channels.emplace_back(kNames[c]);
-    image.transfer = packed.is_colour ? Transfer::srgb : Transfer::linear;
-    return image;
-}
-
-Image grey_image(std::string_view name, int width, int height) {
-    const std::size_t texels = static_cast<std::size_t>(width) * height;
-    return {std::string(name), {"R"}, 1, {{width, height, std::vector<float>(texels)}}, Transfer::linear};
 }
 
 /// A map's value of a texel, before codes: what an even sky makes of it against what it made of the source.
@@ -56,26 +39,6 @@ float map_value(ExtraMap map, const Layout& layout, const Rows& rows, std::size_
                  change = static_cast<double>(pbr::mean_channel(after)) - energy;
     const double relative = energy > 0 ? change / energy : 0;
     return static_cast<float>(.5 + std::clamp(relative / kLargestChange, -1., 1.) / 2);
-}
-
-/// Adds what triangular noise of one code's width takes from banding, where codes are 8 bits.
-void dither(const TextureParams& params, std::vector<Image>& images) {
-    constexpr float kCode = 1.f / 255;
-    for (std::size_t m = 0; m < images.size(); ++m)
-        for (Level& level : images[m].levels)
-            for (std::size_t i = 0; i < level.texels.size(); ++i) {
-                const auto seed = static_cast<std::uint64_t>(params.seed);
-                const double noise =
-                    pbr::random_unit(seed + m, 2 * i) - pbr::random_unit(seed + m, 2 * i + 1);
-                float& value = level.texels[i];
-                // In sRGB's scale a code is narrower in the dark: half_step knows its width.
-                const float code = images[m].transfer == Transfer::srgb && i % images[m].channels.size() < 3
-                                       ? 2 * half_step(value, 8, true)
-                                       : kCode;
-                // Black and white stay what they are, and no noise leads beyond them.
-                if (value > 0 && value < 1)
-                    value = std::clamp(value + static_cast<float>(noise) * code / 2, 0.f, 1.f);
-            }
 }
 
 void warn(const Sources& sources, const Survey& survey, const Findings& found, Product& product) {
@@ -99,7 +62,7 @@ void warn(const Sources& sources, const Survey& survey, const Findings& found, P
             "surface or calibrate none if it is f0 already");
 }
 
-/// A set on its way to images. The largest level is never in memory but as packed: it is converted by strips,
+/// A set on its way to images. The largest level is never in memory but as stored: it is converted by strips,
 /// each of which leaves its rows of the next level.
 class SetBake {
   public:
@@ -110,27 +73,24 @@ class SetBake {
           layout_(layout_of(sources)),
           survey_(survey(sources, context)),
           findings_(static_cast<std::size_t>(sources.height())),
-          largest_f0_(static_cast<std::size_t>(sources.height())) {
-        for (const PackedImage& image : layout_.images) {
-            images_.push_back(named_image(image));
-            images_.back().levels.push_back(empty_level(sources.width(), sources.height(), image));
-        }
-        for (const ExtraMap map : params_.maps)
-            extras_.push_back(grey_image(enum_name(map), sources.width(), sources.height()));
+          largest_f0_(static_cast<std::size_t>(sources.height())),
+          store_(params_, layout_) {
+        store_.add_level(sources.width(), sources.height());
     }
 
     Product run() {
         convert_largest();
-        while (static_cast<int>(images_.front().levels.size()) != params_.levels && !is_smallest()) {
+        while (level_count_ != params_.levels && !is_smallest()) {
             context_.check_cancelled();
             add_level();
             if (std::max(next_.width, next_.height) > 1) next_ = next_level(next_, context_);
         }
         const float unit = layout_.has_residual ? specular_unit() : 1;
-        if (layout_.has_residual) divide_specular(unit);
+        if (layout_.has_residual) store_.divide_residual(unit);
+        if (params_.dither) store_.dither();
         Product product;
-        product.images = std::move(images_);
-        for (Image& image : extras_) product.images.push_back(std::move(image));
+        product.images = store_.take();
+        product.pixel = PixelType::unorm8;
         Findings total;
         for (const Findings& row : findings_) total += row;
         const double texels = static_cast<double>(sources_.width()) * sources_.height();
@@ -159,13 +119,8 @@ class SetBake {
         product.documents.push_back({"material.json", std::move(material), ""});
     }
 
-    static Level empty_level(int width, int height, const PackedImage& image) {
-        const std::size_t texels = static_cast<std::size_t>(width) * height;
-        return {width, height, std::vector<float>(texels * image.channels.size())};
-    }
-
     bool is_smallest() const {
-        const Level& level = images_.front().levels.back();
+        const Level& level = store_.newest_level();
         return std::max(level.width, level.height) == 1;
     }
 
@@ -190,7 +145,6 @@ class SetBake {
         const std::int64_t grain = std::max<std::int64_t>(1, strips / (4 * context_.threads()));
         context_.parallel_for(strips, grain, [&](std::int64_t begin, std::int64_t end) {
             Converter converter(sources_, survey_, most_rows);
-            Materials materials(static_cast<std::size_t>(width));
             for (std::int64_t strip = begin; strip < end; ++strip) {
                 const auto first = static_cast<int>(strip) * step,
                            last = std::min(first + step, next_.height);
@@ -198,32 +152,41 @@ class SetBake {
                           bottom = first_row_under(last, height, next_),
                           reach = last_row_under(last - 1, height, next_) + 1;
                 const Rows& rows = converter.convert(top, bottom, std::max(bottom, reach), findings_);
-                for (int y = top; y < bottom; ++y) pack_row(rows, y, materials);
+                for (int y = top; y < bottom; ++y) store_row(rows, y);
                 for (int y = first; has_next && y < last; ++y) fill_row(rows.level, top, height, y, next_);
             }
         });
         context_.count("texels", static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height));
     }
 
-    void pack_row(const Rows& rows, int y, Materials& materials) {
-        const MapLevel& level = rows.level;
-        const auto width = static_cast<std::size_t>(level.width);
-        const std::size_t begin = static_cast<std::size_t>(y - rows.first) * width,
-                          to = static_cast<std::size_t>(y) * width;
+    void store_row(const Rows& rows, int y) {
+        const auto width = static_cast<std::size_t>(rows.level.width);
+        Texels texels{rows.level, static_cast<std::size_t>(y - rows.first) * width, width, {}, {}};
+        make_materials(params_, layout_, rows.tolerance.from(texels.begin), texels);
         float& largest = largest_f0_[static_cast<std::size_t>(y)];
-        for (std::size_t x = 0; x < width; ++x) {
-            materials[x] = material_of(params_, layout_, level, begin + x, rows.tolerance[begin + x]);
-            if (materials[x].metallic < .99f)
-                largest = std::max(largest, pbr::max_channel(materials[x].dielectric_f0));
-        }
-        for (std::size_t i = 0; i < layout_.images.size(); ++i)
-            pack(layout_.images[i], level, begin, begin + width, materials.data(), to,
-                 images_[i].levels.front().texels);
+        for (std::size_t x = 0; x < width; ++x)
+            if (rows.level.metallic[texels.begin + x] < .99f)
+                largest = std::max(largest, pbr::max_channel(texels.dielectric_f0[x]));
+        const std::size_t to = static_cast<std::size_t>(y) * width;
+        store(texels, to);
+        std::vector<float> values(width);
         const pbr::Scattering scattering = scattering_of(params_);
-        for (std::size_t i = 0; i < extras_.size(); ++i)
+        for (std::size_t i = 0; i < params_.maps.size(); ++i) {
             for (std::size_t x = 0; x < width; ++x)
-                extras_[i].levels.front().texels[to + x] =
-                    map_value(params_.maps[i], layout_, rows, begin + x, materials[x], scattering);
+                values[x] = map_value(params_.maps[i], layout_, rows, texels.begin + x, texels.material(x),
+                                      scattering);
+            store_.put(layout_.images.size() + i, 0, to, values);
+        }
+    }
+
+    /// Into all of the layout's channels, from texel `to` of the newest level on.
+    void store(const Texels& texels, std::size_t to) {
+        std::vector<float> values(texels.count);
+        for (std::size_t i = 0; i < layout_.images.size(); ++i)
+            for (std::size_t c = 0; c < layout_.images[i].channels.size(); ++c) {
+                pack(layout_.images[i].channels[c], texels, values.data());
+                store_.put(i, c, to, values);
+            }
     }
 
     /// The largest dielectric f0 that matters, at least the usual one: what a code of 1 stands for. Texels
@@ -231,30 +194,23 @@ class SetBake {
     /// dielectric, what is left for dielectric f0 can be twenty times as much, and would take level 0's
     /// codes.
     float specular_unit() const {
-        return std::max(static_cast<float>(params_.dielectric_f0), *std::ranges::max_element(largest_f0_));
-    }
-
-    /// The residual was packed before its unit was known.
-    void divide_specular(float unit) {
-        for (std::size_t i = 0; i < layout_.images.size(); ++i)
-            if (layout_.images[i].channels.front() == Held::dielectric_r)
-                for (Level& level : images_[i].levels)
-                    for (float& value : level.texels) value = std::min(1.f, value / unit);
+        return store_.residual_unit(
+            std::max(static_cast<float>(params_.dielectric_f0), *std::ranges::max_element(largest_f0_)));
     }
 
     void add_level() {
-        for (std::size_t i = 0; i < layout_.images.size(); ++i)
-            images_[i].levels.push_back(empty_level(next_.width, next_.height, layout_.images[i]));
+        store_.add_level(next_.width, next_.height);
+        ++level_count_;
         const auto width = static_cast<std::size_t>(next_.width);
+        Planes tolerance;
+        tolerance.resize(width);
+        tolerance.fill(Colour(1e-6f));
         context_.parallel_for(next_.height, 16, [&](std::int64_t begin, std::int64_t end) {
-            Materials materials(width);
             for (std::int64_t y = begin; y < end; ++y) {
                 const std::size_t first = static_cast<std::size_t>(y) * width;
-                for (std::size_t x = 0; x < width; ++x)
-                    materials[x] = material_of(params_, layout_, next_, first + x, Colour(1e-6f));
-                for (std::size_t i = 0; i < layout_.images.size(); ++i)
-                    pack(layout_.images[i], next_, first, first + width, materials.data(), first,
-                         images_[i].levels.back().texels);
+                Texels texels{next_, first, width, {}, {}};
+                make_materials(params_, layout_, std::as_const(tolerance).from(0), texels);
+                store(texels, first);
             }
         });
     }
@@ -266,7 +222,8 @@ class SetBake {
     Survey survey_;
     std::vector<Findings> findings_;  ///< sums of each row
     std::vector<float> largest_f0_;   ///< of each row's dielectrics
-    std::vector<Image> images_, extras_;
+    Store store_;
+    int level_count_ = 1;
     MapLevel next_;
 };
 
@@ -374,10 +331,7 @@ std::vector<std::string> documents(const std::string& format) {
 
 Product bake(const TextureParams& params, const Inputs& inputs, Context& context) {
     const Sources sources(params, inputs);
-    Product product = SetBake(sources, context).run();
-    if (params.dither) dither(params, product.images);
-    product.pixel = PixelType::unorm8;
-    return product;
+    return SetBake(sources, context).run();
 }
 
 }  // namespace pbrbake::texture

@@ -91,12 +91,12 @@ Statistics statistics_of(const Sources& sources, Context& context) {
     std::mutex mutex;
     context.parallel_for(sources.height(), 64, [&](std::int64_t begin, std::int64_t end) {
         Histogram own{};
-        std::vector<LegacyTexel> texels(static_cast<std::size_t>(sources.width()));
+        LegacyRow texels(sources.width());
         for (auto y = static_cast<int>(begin); y < end; ++y) {
-            sources.row(y, texels.data());
-            for (const LegacyTexel& texel : texels) {
-                const float diffuse = pbr::mean_channel(texel.reflected.diffuse),
-                            f0 = pbr::mean_channel(texel.reflected.f0);
+            sources.read(0, y, texels);
+            for (std::size_t i = 0; i < texels.texels(); ++i) {
+                const float diffuse = pbr::mean_channel(texels.diffuse[i]),
+                            f0 = pbr::mean_channel(texels.f0[i]);
                 rows[static_cast<std::size_t>(y)].diffuse += static_cast<double>(diffuse);
                 rows[static_cast<std::size_t>(y)].f0 += static_cast<double>(f0);
                 if (diffuse >= least_diffuse)
@@ -190,19 +190,22 @@ double green_correlation(const Sources& sources, Context& context) {
     struct Slope {
         float x, y;
     };
-    const auto slopes_of = [&](int y, std::vector<Slope>& slopes) {
-        for (int x = 0; x < sources.width(); ++x) {
-            const Colour n = sources.normal(x, y);
+    const auto slopes_of = [&](int y, Planes& normals, std::vector<Slope>& slopes) {
+        sources.read_normals(y, 0, normals);
+        for (std::size_t x = 0; x < slopes.size(); ++x) {
+            const Colour n = normals[x];
             const float z = std::max(n.z, .1f);
-            slopes[static_cast<std::size_t>(x)] = {-n.x / z, -n.y / z};
+            slopes[x] = {-n.x / z, -n.y / z};
         }
     };
     context.parallel_for(pairs, 16, [&](std::int64_t begin, std::int64_t end) {
         std::vector<Slope> upper(static_cast<std::size_t>(sources.width())), lower = upper;
+        Planes normals;
+        normals.resize(upper.size());
         for (std::int64_t i = begin; i < end; ++i) {
             const auto y = static_cast<int>(i * gaps / pairs);
-            slopes_of(y, upper);
-            slopes_of(y + 1, lower);
+            slopes_of(y, normals, upper);
+            slopes_of(y + 1, normals, lower);
             Sums& sums = rows[static_cast<std::size_t>(i)];
             for (std::size_t x = 0; x + 1 < upper.size(); ++x) {
                 // Rows go down, so d/dy of the upward axis is minus the difference of rows.

@@ -47,14 +47,14 @@ struct Sums {
     }
 
     void store(MapLevel& level, std::size_t i) const {
-        level.diffuse[i] = diffuse;
-        level.f0[i] = f0;
+        level.diffuse.set(i, diffuse);
+        level.f0.set(i, f0);
         level.metallic[i] = metallic;
         level.perceptual_roughness[i] = pbr::perceptual_roughness_from_alpha(slopes.alpha());
-        if (!level.normal.empty()) level.normal[i] = slopes.normal();
+        if (!level.normal.empty()) level.normal.set(i, slopes.normal());
         if (!level.occlusion.empty()) level.occlusion[i] = occlusion;
         if (!level.opacity.empty()) level.opacity[i] = opacity;
-        if (!level.emissive.empty()) level.emissive[i] = emissive;
+        if (!level.emissive.empty()) level.emissive.set(i, emissive);
     }
 };
 

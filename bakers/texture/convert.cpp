@@ -30,7 +30,9 @@ Converter::Converter(const Sources& sources, const Survey& survey, int most_rows
       survey_(survey),
       estimate_(sources, survey.calibration),
       metal_(sources.width(), most_rows + 2 * kMetalReach, sources.params().wrap),
-      line_(static_cast<std::size_t>(sources.width())) {
+      line_(sources.width()),
+      metallic_(line_.texels()),
+      confidence_(line_.texels()) {
     MapLevel& level = rows_.level;
     level.width = sources.width();
     level.height = most_rows;
@@ -77,48 +79,64 @@ int Converter::place(int y) const {
 
 /// Reads row y into a slot of the mask's rows; an own row into the maps too.
 void Converter::read(int y, int slot, bool is_own, Findings* findings) {
-    sources_.row(place(y), line_.data());
-    const auto f0_scale = static_cast<float>(survey_.calibration.scale);
-    if (findings) *findings = {};
-    for (int x = 0; x < sources_.width(); ++x) {
-        LegacyTexel& texel = line_[static_cast<std::size_t>(x)];
-        const pbr::Reflected<float> reflected = survey_.calibration(texel.reflected);
-        texel.quantisation.f0 *= f0_scale;
-        const pbr::MetallicEstimate<float> estimate = texel.metallic >= 0
-                                                          ? pbr::MetallicEstimate<float>{texel.metallic, 1}
-                                                          : estimate_(reflected, texel.quantisation);
-        if (estimate_.regularises()) metal_.set(slot, x, reflected, estimate);
-        if (!is_own) continue;
-        const std::size_t i = static_cast<std::size_t>(y - rows_.first) * rows_.level.width + x;
-        read_own(x, y, texel, reflected);
-        rows_.level.metallic[i] = estimate.metallic;
-        rows_.confidence[i] = estimate.confidence;
-        if (!findings) continue;
-        findings->f0_clamped += texel.f0_clamped;
-        findings->over_unity += pbr::max_channel(reflected.diffuse + reflected.f0) > kAllLight ? 1 : 0;
-        findings->low_confidence += estimate.confidence < .5f ? 1 : 0;
-        findings->confidence += static_cast<double>(estimate.confidence);
-    }
-    if (estimate_.regularises()) metal_.close(slot);
+    sources_.read(0, place(y), line_);
+    calibrate();
+    estimate_(line_, metallic_.data(), confidence_.data());
+    if (estimate_.regularises()) metal_.set(slot, line_, metallic_.data(), confidence_.data());
+    if (is_own) read_own(y);
+    if (findings) *findings = find();
 }
 
-void Converter::read_own(int x, int y, const LegacyTexel& texel, const pbr::Reflected<float>& reflected) {
-    MapLevel& level = rows_.level;
-    const std::size_t i = static_cast<std::size_t>(y - rows_.first) * level.width + x;
-    level.diffuse[i] = reflected.diffuse;
-    level.f0[i] = reflected.f0;
-    level.perceptual_roughness[i] = texel.perceptual_roughness;
-    rows_.tolerance[i] =
-        glm::clamp(texel.quantisation.diffuse, Colour(kLeastTolerance), Colour(kLargestTolerance));
-    if (!rows_.albedo.empty())
-        rows_.albedo[i] = source_albedo(sources_, survey_.calibration, texel, reflected).total();
-    if (sources_.has_normal()) {
-        level.normal[i] = sources_.normal(x, y);
-        if (survey_.green_down) level.normal[i].y = -level.normal[i].y;
+void Converter::calibrate() {
+    const Calibration& calibration = survey_.calibration;
+    if (calibration.kind == Calibration::Kind::none) return;
+    const auto f0_scale = static_cast<float>(calibration.scale);
+    for (std::size_t i = 0; i < line_.texels(); ++i) {
+        const pbr::Reflected<float> reflected = calibration({line_.diffuse[i], line_.f0[i]});
+        line_.diffuse.set(i, reflected.diffuse);
+        line_.f0.set(i, reflected.f0);
+        line_.f0_step.set(i, line_.f0_step[i] * f0_scale);
     }
-    if (sources_.has_occlusion()) level.occlusion[i] = sources_.occlusion(x, y);
-    if (sources_.has_opacity()) level.opacity[i] = sources_.opacity(x, y);
-    if (sources_.has_emissive()) level.emissive[i] = sources_.emissive(x, y);
+}
+
+void Converter::read_own(int y) {
+    MapLevel& level = rows_.level;
+    const std::size_t to = static_cast<std::size_t>(y - rows_.first) * level.width, count = line_.texels();
+    const auto copy = [&](const std::vector<float>& from, std::vector<float>& map) {
+        std::ranges::copy(from, map.begin() + static_cast<std::ptrdiff_t>(to));
+    };
+    for (std::size_t c = 0; c < 3; ++c) {
+        copy(line_.diffuse.channels[c], level.diffuse.channels[c]);
+        copy(line_.f0.channels[c], level.f0.channels[c]);
+        const float* step = line_.diffuse_step.channels[c].data();
+        float* tolerance = rows_.tolerance.channels[c].data() + to;
+        for (std::size_t i = 0; i < count; ++i)
+            tolerance[i] = std::clamp(step[i], kLeastTolerance, kLargestTolerance);
+    }
+    copy(line_.perceptual_roughness, level.perceptual_roughness);
+    copy(metallic_, level.metallic);
+    copy(confidence_, rows_.confidence);
+    for (std::size_t i = 0; !rows_.albedo.empty() && i < count; ++i)
+        rows_.albedo.set(to + i, source_albedo(sources_, survey_.calibration, line_[i]).total());
+    if (sources_.has_normal()) {
+        sources_.read_normals(y, to, level.normal);
+        float* ny = level.normal.channels[1].data() + to;
+        for (std::size_t i = 0; survey_.green_down && i < count; ++i) ny[i] = -ny[i];
+    }
+    if (sources_.has_occlusion()) sources_.read_occlusion(y, level.occlusion.data() + to);
+    if (sources_.has_opacity()) sources_.read_opacity(y, level.opacity.data() + to);
+    if (sources_.has_emissive()) sources_.read_emissive(y, to, level.emissive);
+}
+
+Findings Converter::find() const {
+    Findings found;
+    for (std::size_t i = 0; i < line_.texels(); ++i) {
+        found.f0_clamped += line_.f0_clamped[i];
+        found.over_unity += pbr::max_channel(line_.diffuse[i] + line_.f0[i]) > kAllLight ? 1 : 0;
+        found.low_confidence += confidence_[i] < .5f ? 1 : 0;
+        found.confidence += static_cast<double>(confidence_[i]);
+    }
+    return found;
 }
 
 }  // namespace pbrbake::texture

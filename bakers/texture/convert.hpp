@@ -24,9 +24,9 @@ struct Rows {
     int first = 0;
     std::vector<float> confidence;
     /// What each texel's diffuse may be moved by: half its file's interval.
-    std::vector<Colour> tolerance;
+    Planes tolerance;
     /// What each texel of the set returns of an even sky (source_albedo); empty where no map asks for it.
-    std::vector<Colour> albedo;
+    Planes albedo;
 };
 
 /// Converts rows; holds the room for it, so keep one for many calls. A thread needs its own.
@@ -40,14 +40,17 @@ class Converter {
   private:
     int place(int y) const;
     void read(int y, int slot, bool is_own, Findings* findings);
-    void read_own(int x, int y, const LegacyTexel& texel, const pbr::Reflected<float>& reflected);
+    void calibrate();
+    void read_own(int y);
+    Findings find() const;
 
     const Sources& sources_;
     const Survey& survey_;
     MetalEstimator estimate_;
     MetalRows metal_;
     Rows rows_;
-    std::vector<LegacyTexel> line_;
+    LegacyRow line_;
+    std::vector<float> metallic_, confidence_;  ///< of line_
 };
 
 }  // namespace pbrbake::texture

@@ -36,11 +36,10 @@ Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_rough
     return {reflected.diffuse, grey > 0 ? reflected.f0 * static_cast<float>(mean / grey) : Colour(0)};
 }
 
-Albedo source_albedo(const Sources& sources, const Calibration& calibration, const LegacyTexel& texel,
-                     const pbr::Reflected<float>& calibrated) {
+Albedo source_albedo(const Sources& sources, const Calibration& calibration, const LegacyTexel& calibrated) {
     if (sources.has_legacy_lobe() && calibration.kind == Calibration::Kind::none)
-        return {calibrated.diffuse, texel.specular_albedo};
-    return pbr_albedo(calibrated, texel.perceptual_roughness, scattering_of(sources.params()));
+        return {calibrated.reflected.diffuse, calibrated.specular_albedo};
+    return pbr_albedo(calibrated.reflected, calibrated.perceptual_roughness, scattering_of(sources.params()));
 }
 
 pbr::Scattering scattering_of(const TextureParams& params) {

@@ -16,10 +16,9 @@ struct Albedo {
 Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness,
                   pbr::Scattering scattering);
 
-/// Of a texel of the set, and what its calibration makes of it. A Phong lobe's specular albedo comes from its
-/// closed form, not from the f0 that was solved for it; a calibrated one's from that f0.
-Albedo source_albedo(const Sources& sources, const Calibration& calibration, const LegacyTexel& texel,
-                     const pbr::Reflected<float>& calibrated);
+/// Of a texel of the set whose reflected light is as calibrated. A Phong lobe's specular albedo comes from
+/// its closed form, not from the f0 that was solved for it; a calibrated one's from that f0.
+Albedo source_albedo(const Sources& sources, const Calibration& calibration, const LegacyTexel& calibrated);
 
 pbr::Scattering scattering_of(const TextureParams& params);
 

@@ -11,11 +11,35 @@
 #include "bakers/texture/picture.hpp"
 #include "bakers/texture/rules.hpp"
 #include "pbr/legacy/energy.hpp"
-#include "pbr/legacy/specular_gloss.hpp"
+#include "pbr/legacy/texel_planes.hpp"
 
 namespace pbrbake::texture {
 
 using Colour = pbr::Vec3<float>;
+
+/// A colour a texel, a plane a channel.
+struct Planes {
+    std::array<std::vector<float>, 3> channels;
+
+    bool empty() const { return channels[0].empty(); }
+    void resize(std::size_t texels) {
+        for (auto& channel : channels) channel.resize(texels);
+    }
+    Colour operator[](std::size_t i) const { return {channels[0][i], channels[1][i], channels[2][i]}; }
+    void set(std::size_t i, const Colour& colour) {
+        for (std::size_t c = 0; c < 3; ++c) channels[c][i] = colour[static_cast<int>(c)];
+    }
+    void fill(const Colour& colour) {
+        for (std::size_t c = 0; c < 3; ++c) std::ranges::fill(channels[c], colour[static_cast<int>(c)]);
+    }
+    /// From texel i on.
+    pbr::ColourPlanes from(std::size_t i) const {
+        return {channels[0].data() + i, channels[1].data() + i, channels[2].data() + i};
+    }
+    std::array<float*, 3> from(std::size_t i) {
+        return {channels[0].data() + i, channels[1].data() + i, channels[2].data() + i};
+    }
+};
 
 /// One texel as its legacy model has it.
 struct LegacyTexel {
@@ -28,13 +52,25 @@ struct LegacyTexel {
     pbr::Quantisation<float> quantisation;
 };
 
+/// Texels of a row as their legacy model has them: LegacyTexel's members.
+struct LegacyRow {
+    explicit LegacyRow(int texels);
+    std::size_t texels() const { return perceptual_roughness.size(); }
+    LegacyTexel operator[](std::size_t i) const;
+
+    Planes diffuse, f0, specular_albedo;
+    Planes diffuse_step, f0_step;  ///< quantisation
+    std::vector<float> perceptual_roughness, metallic;
+    std::vector<std::uint8_t> f0_clamped;
+};
+
 /// The texels of one level of a converted set, or of some of its rows.
 struct MapLevel {
     int width = 0, height = 0;
-    std::vector<Colour> diffuse, f0;
+    Planes diffuse, f0;
     std::vector<float> metallic, perceptual_roughness;
-    std::vector<Colour> normal;             ///< y up; empty without a normal map
-    std::vector<Colour> emissive;           ///< empty without a map
+    Planes normal;                          ///< y up; empty without a normal map
+    Planes emissive;                        ///< empty without a map
     std::vector<float> occlusion, opacity;  ///< empty without a map
     std::size_t texels() const { return static_cast<std::size_t>(width) * height; }
 };
@@ -66,12 +102,14 @@ class Sources {
 
     /// The texel of column x, row y, before calibration.
     LegacyTexel texel(int x, int y) const;
-    /// Those of row y, width() of them.
-    void row(int y, LegacyTexel* texels) const;
-    Colour normal(int x, int y) const;  ///< y as stored
-    float occlusion(int x, int y) const { return unit_value(occlusion_, x, y); }
-    float opacity(int x, int y) const { return unit_value(opacity_, x, y); }
-    Colour emissive(int x, int y) const;
+    /// Those of row y from column x on, as many as `row` has.
+    void read(int x, int y, LegacyRow& row) const;
+    /// The other maps' of whole rows, from texel `to` of the planes on.
+    void read_normals(int y, std::size_t to, Planes& normals) const;  ///< y as stored
+    void read_occlusion(int y, float* values) const { unit_values(occlusion_, 0, y, width_, values); }
+    void read_opacity(int y, float* values) const { unit_values(opacity_, 0, y, width_, values); }
+    void read_emissive(int y, std::size_t to, Planes& light) const;
+    float occlusion(int x, int y) const;
     /// The exponent that gloss stands for, where it holds one; else < 0. Needs has_gloss().
     float exponent_at(int x, int y) const;
     bool has_normal() const { return bool(normal_.picture); }
@@ -80,7 +118,7 @@ class Sources {
     bool has_gloss() const { return bool(gloss_.picture); }
     bool has_emissive() const { return bool(emissive_.picture); }
     /// Whether the set says what it reflects: a map, or a factor.
-    bool has_specular() const { return specular_.picture || specular_factor_ != Colour(1); }
+    bool has_specular() const { return specular_.map.picture || specular_.factor != Colour(1); }
     /// Whether the set has a Phong lobe, whose albedo is known without an f0.
     bool has_legacy_lobe() const;
     pbr::DiffuseCoupling coupling() const { return coupling_; }
@@ -91,9 +129,16 @@ class Sources {
     struct Map {
         Picture picture;
         int channel = 0;
-        bool is_full = false;                 ///< as large as the set
-        bool is_srgb = false;                 ///< its codes are even in sRGB
-        std::array<float, 256> half_steps{};  ///< of codes; 0 of floats
+        bool is_full = false;   ///< as large as the set
+        bool is_srgb = false;   ///< its codes are even in sRGB
+        bool is_coded = false;  ///< as large as the set, and codes
+    };
+    /// A map of colours, and what multiplies it; without a map, white.
+    struct ColourMap {
+        Map map;
+        Colour factor{1};
+        /// Of codes: what they stand for, and half their intervals, times the factor.
+        std::array<std::array<float, 256>, 3> values{}, half_steps{};
     };
     /// What a gloss value stands for.
     struct Lobe {
@@ -103,26 +148,27 @@ class Sources {
     };
 
     Map map_of(const std::string& field, int channel) const;
+    ColourMap colour_map_of(const std::string& field, const Colour& factor) const;
     void choose_normal();
     void choose_opacity();
     void tabulate_gloss();
     void warn_of_sizes(const Inputs& inputs);
     void fetch(const Map& map, int x, int y, float* values, int count) const;
-    float unit_value(const Map& map, int x, int y) const;
-    Colour colour(const Map& map, const Colour& factor, int x, int y, Colour& half_steps) const;
+    void unit_values(const Map& map, int x, int y, int count, float* values) const;
+    void read_colours(const ColourMap& colours, int x, int y, Planes& values, Planes& half_steps) const;
+    void read_lobes(int x, int y, std::vector<const Lobe*>& lobes, std::vector<Lobe>& own) const;
     float exponent(float gloss) const;
     float perceptual_roughness(float gloss, float& exponent) const;
     Lobe lobe_of(float gloss) const;
-    Lobe lobe_at(int x, int y) const;
-    void reflect_metallic(const Colour& base, int x, int y, LegacyTexel& texel) const;
-    void reflect_phong(const Colour& diffuse, const Colour& specular, const Lobe& lobe,
-                       LegacyTexel& texel) const;
+    void reflect_specular(LegacyRow& row) const;
+    void reflect_metallic(int x, int y, LegacyRow& row) const;
+    void reflect_phong(const std::vector<const Lobe*>& lobes, LegacyRow& row) const;
 
     RuledSet rules_;
     const Inputs& inputs_;
     int width_ = 1, height_ = 1;  ///< of factors alone
-    Map diffuse_, specular_, gloss_, normal_, occlusion_, opacity_, emissive_, metallic_;
-    Colour diffuse_factor_, specular_factor_;
+    ColourMap diffuse_, specular_;
+    Map gloss_, normal_, occlusion_, opacity_, emissive_, metallic_;
     GlossReading gloss_reading_;
     pbr::DiffuseCoupling coupling_;
     std::vector<Lobe> lobes_;  ///< of the codes of an 8-bit gloss map, or the one lobe without a map

@@ -15,21 +15,28 @@ MetalEstimator::MetalEstimator(const Sources& sources, const Calibration& calibr
     : prior_{static_cast<float>(sources.params().dielectric_f0),
              static_cast<float>(sources.params().f0_tolerance), .01f},
       coupling_(sources.coupling()),
-      regularises_(sources.params().regularise && calibration.surface == "any" &&
-                   sources.params().model != Model::metallic_roughness) {
+      is_stated_(sources.params().model == Model::metallic_roughness),
+      regularises_(sources.params().regularise && calibration.surface == "any" && !is_stated_) {
     constexpr float kGuessedScale = .5f;
     if (calibration.surface != "any") told_ = calibration.surface == "metal" ? 1.f : 0.f;
     if (calibration.kind == Calibration::Kind::statistics) trust_ = kGuessedScale;
 }
 
-pbr::MetallicEstimate<float> MetalEstimator::operator()(const pbr::Reflected<float>& reflected,
-                                                        const pbr::Quantisation<float>& step) const {
-    // A surface that its name or the job tells is no estimate.
+void MetalEstimator::operator()(const LegacyRow& row, float* metallic, float* confidence) const {
     constexpr float kTold = .9f;
-    if (told_ >= 0) return {told_, kTold};
-    pbr::MetallicEstimate<float> found = pbr::estimate_metallic<float>(reflected, prior_, step, coupling_);
-    found.confidence *= trust_;
-    return found;
+    const std::size_t count = row.texels();
+    if (is_stated_) {
+        std::ranges::copy(row.metallic, metallic);
+        std::fill_n(confidence, count, 1.f);
+    } else if (told_ >= 0) {  // a surface that its name or the job tells is no estimate
+        std::fill_n(metallic, count, told_);
+        std::fill_n(confidence, count, kTold);
+    } else {
+        pbr::estimate_metallic({row.diffuse.from(0), row.f0.from(0)}, prior_,
+                               {row.diffuse_step.from(0), row.f0_step.from(0)}, coupling_, count, metallic,
+                               confidence);
+        for (std::size_t i = 0; i < count; ++i) confidence[i] *= trust_;
+    }
 }
 
 MetalRows::MetalRows(int width, int rows, Wrap wrap)
@@ -39,27 +46,22 @@ MetalRows::MetalRows(int width, int rows, Wrap wrap)
       wrap_(wrap),
       values_(static_cast<std::size_t>(planes) * rows * pitch_) {}
 
-void MetalRows::set(int row, int x, const pbr::Reflected<float>& reflected,
-                    const pbr::MetallicEstimate<float>& estimate) {
-    for (int c = 0; c < 3; ++c) {
-        plane(diffuse + c, row)[x] = reflected.diffuse[c];
-        plane(f0 + c, row)[x] = reflected.f0[c];
-    }
-    plane(metallic, row)[x] = estimate.metallic;
-    plane(confidence, row)[x] = estimate.confidence;
-}
-
-void MetalRows::close(int row) {
-    const auto place = [&](int x) {
-        return wrap_ == Wrap::repeat ? (x % width_ + width_) % width_ : std::clamp(x, 0, width_ - 1);
-    };
-    for (int p = 0; p < planes; ++p) {
-        float* values = plane(p, row);
+void MetalRows::set(int row, const LegacyRow& texels, const float* own, const float* sure) {
+    const auto fill = [&](int p, const float* values) {
+        float* to = plane(p, row);
+        std::copy_n(values, width_, to);
         for (int i = 1; i <= kMetalReach; ++i) {
-            values[-i] = values[place(-i)];
-            values[width_ - 1 + i] = values[place(width_ - 1 + i)];
+            const bool repeats = wrap_ == Wrap::repeat;
+            to[-i] = to[repeats ? (width_ * kMetalReach - i) % width_ : 0];
+            to[width_ - 1 + i] = to[repeats ? (i - 1) % width_ : width_ - 1];
         }
+    };
+    for (int c = 0; c < 3; ++c) {
+        fill(diffuse + c, texels.diffuse.channels[static_cast<std::size_t>(c)].data());
+        fill(f0 + c, texels.f0.channels[static_cast<std::size_t>(c)].data());
     }
+    fill(metallic, own);
+    fill(confidence, sure);
 }
 
 void MetalRows::regularise(int row, float* out) const {
@@ -116,12 +118,16 @@ void MetalRows::regularise_run(int row, int begin, int end, float* out) const {
     for (int i = 0; i < count; ++i) {
         const float doubt = 1 - sure[i] / kSure;
         const float mean = sum[static_cast<std::size_t>(i)] / weights[static_cast<std::size_t>(i)];
-        // The base colour of so much metal would reflect more than f0, unless diffuse is dimmed.
-        float most = 1;
+        // No more than surely has a material: with base colour f0 / m no dielectric f0 is left in the least
+        // channel, and in no other more than f0 / (1 - m), which lets the rest of the light through to
+        // diffuse.
+        float most = 1, brightest = 0;
         for (std::size_t c = 0; c < 3; ++c) {
             const float d = here[diffuse + c][i], s = here[f0 + c][i];
             most = std::min(most, (s + kLeast) / (s + d + kLeast));
+            brightest = std::max(brightest, s);
         }
+        most *= 1 - brightest;
         out[begin + i] = std::min(own[i] + doubt * (mean - own[i]), std::max(most, own[i]));
     }
 }

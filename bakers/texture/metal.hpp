@@ -9,13 +9,12 @@ namespace pbrbake::texture {
 /// Rows above and below that a row's mask depends on.
 inline constexpr int kMetalReach = 2;
 
-/// Estimates metallic and confidence of one texel at a time; reflected light and `step`, a half interval, are
-/// as calibrated.
+/// Estimates metallic and confidence of texels as calibrated.
 class MetalEstimator {
   public:
     MetalEstimator(const Sources& sources, const Calibration& calibration);
-    pbr::MetallicEstimate<float> operator()(const pbr::Reflected<float>& reflected,
-                                            const pbr::Quantisation<float>& step) const;
+    /// Of a row, whose metallic is taken where it is stated.
+    void operator()(const LegacyRow& row, float* metallic, float* confidence) const;
     /// Whether texels are estimates, and neighbours may tell more.
     bool regularises() const { return regularises_; }
 
@@ -24,6 +23,7 @@ class MetalEstimator {
     float trust_ = 1;
     pbr::MetallicPrior<float> prior_;
     pbr::DiffuseCoupling coupling_;
+    bool is_stated_;  ///< by the set itself
     bool regularises_;
 };
 
@@ -32,10 +32,8 @@ class MetalEstimator {
 class MetalRows {
   public:
     MetalRows(int width, int rows, Wrap wrap);
-    void set(int row, int x, const pbr::Reflected<float>& reflected,
-             const pbr::MetallicEstimate<float>& estimate);
-    /// Fills the columns on either side of a row that is complete.
-    void close(int row);
+    /// A row, and what was estimated of it.
+    void set(int row, const LegacyRow& texels, const float* metallic, const float* confidence);
     /// The mask of a row, whose neighbours up to kMetalReach away are complete: where a texel's confidence is
     /// below .95, from the sure ones of the 5 x 5 around it that look alike.
     void regularise(int row, float* metallic) const;

@@ -24,93 +24,6 @@ PackedImage diffuse_image(bool has_opacity) {
     return image;
 }
 
-/// Some texels of a level, and their materials, on their way into an image.
-struct Texels {
-    const MapLevel& level;
-    std::size_t begin, end;
-    const pbr::MetallicMaterial<float>* materials;  ///< that of `begin` first
-};
-
-/// Writes one channel, every `step`-th float. The choice is made once a run of texels.
-void pack_channel(Held held, const Texels& texels, float* values, std::size_t step) {
-    const MapLevel& level = texels.level;
-    const int first = static_cast<int>(held);
-    const auto fill = [&](const auto& value) {
-        for (std::size_t i = texels.begin; i < texels.end; ++i, values += step) *values = value(i);
-    };
-    const auto fill_from = [&](const auto& map, float absent, const auto& value) {
-        if (map.empty()) return fill([&](std::size_t) { return absent; });
-        fill([&](std::size_t i) { return value(map[i]); });
-    };
-    const auto fill_material = [&](const auto& value) {
-        fill([&](std::size_t i) { return value(texels.materials[i - texels.begin]); });
-    };
-    using Material = pbr::MetallicMaterial<float>;
-    const auto same = [](float value) { return value; };
-    switch (held) {
-        case zero:
-            return fill([](std::size_t) { return 0.f; });
-        case one:
-            return fill([](std::size_t) { return 1.f; });
-        case base_r:
-        case base_g:
-        case base_b: {
-            const int c = first - static_cast<int>(base_r);
-            return fill_material([c](const Material& m) { return m.base_color[c]; });
-        }
-        case opacity:
-            return fill_from(level.opacity, 1, same);
-        case metallic:
-            return fill_material([](const Material& m) { return m.metallic; });
-        case perceptual_roughness:
-            return fill_from(level.perceptual_roughness, 1, same);
-        case smoothness:
-            return fill_from(level.perceptual_roughness, 0, [](float p) { return 1 - p; });
-        case reflectance:
-            return fill_material(
-                [](const Material& m) { return std::min(1.f, pbr::reflectance_from_f0(m.dielectric_f0.x)); });
-        case specular:
-            return fill_material(
-                [](const Material& m) { return std::min(1.f, m.dielectric_f0.x / kUnrealF0); });
-        case occlusion:
-            return fill_from(level.occlusion, 1, same);
-        case normal_x:
-            return fill_from(level.normal, .5f, [](const Colour& n) { return n.x * .5f + .5f; });
-        case normal_y:
-            return fill_from(level.normal, .5f, [](const Colour& n) { return n.y * .5f + .5f; });
-        case normal_y_down:
-            return fill_from(level.normal, .5f, [](const Colour& n) { return n.y * -.5f + .5f; });
-        case normal_z:
-            return fill_from(level.normal, 1, [](const Colour& n) { return n.z * .5f + .5f; });
-        case dielectric_r:
-        case dielectric_g:
-        case dielectric_b: {
-            const int c = first - static_cast<int>(dielectric_r);
-            return fill_material([c](const Material& m) { return m.dielectric_f0[c]; });
-        }
-        case emissive_r:
-        case emissive_g:
-        case emissive_b: {
-            const int c = first - static_cast<int>(emissive_r);
-            return fill_from(level.emissive, 0, [c](const Colour& light) { return light[c]; });
-        }
-        case diffuse_r:
-        case diffuse_g:
-        case diffuse_b: {
-            const int c = first - static_cast<int>(diffuse_r);
-            return fill([&level, c](std::size_t i) {
-                return pbr::diffuse_colour<float>({level.diffuse[i], level.f0[i]}, kSpecularGloss)[c];
-            });
-        }
-        case f0_r:
-        case f0_g:
-        case f0_b: {
-            const int c = first - static_cast<int>(f0_r);
-            return fill_from(level.f0, 0, [c](const Colour& f0) { return f0[c]; });
-        }
-    }
-}
-
 /// A texel's numbers as its images hold them.
 struct Decoded {
     pbr::MetallicMaterial<float> material;
@@ -219,23 +132,105 @@ std::vector<std::string> image_names(const TextureParams& params) {
     return names;
 }
 
-pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,
-                                         const MapLevel& level, std::size_t texel, const Colour& tolerance) {
-    if (layout.is_specular_gloss) return {Colour(0), 0, Colour(0)};
-    const pbr::Reflected<float> reflected{level.diffuse[texel], level.f0[texel]};
+void make_materials(const TextureParams& params, const Layout& layout, const pbr::ColourPlanes& tolerance,
+                    Texels& texels) {
+    texels.base_color.resize(texels.count);
+    texels.dielectric_f0.resize(texels.count);
+    if (layout.is_specular_gloss) return;
+    const MapLevel& level = texels.level;
     const auto f = static_cast<float>(params.dielectric_f0);
-    return layout.has_residual
-               ? pbr::material_with_residual(reflected, level.metallic[texel], f, tolerance, layout.coupling)
-               : pbr::material_without_residual(reflected, level.metallic[texel], f, layout.largest_f0,
-                                                layout.coupling);
+    if (layout.has_residual)
+        return pbr::material_with_residual({level.diffuse.from(texels.begin), level.f0.from(texels.begin)},
+                                           level.metallic.data() + texels.begin, f, tolerance,
+                                           layout.coupling, texels.count,
+                                           {texels.base_color.from(0), texels.dielectric_f0.from(0)});
+    for (std::size_t i = 0; i < texels.count; ++i) {
+        const std::size_t at = texels.begin + i;
+        const auto material = pbr::material_without_residual<float>(
+            {level.diffuse[at], level.f0[at]}, level.metallic[at], f, layout.largest_f0, layout.coupling);
+        texels.base_color.set(i, material.base_color);
+        texels.dielectric_f0.set(i, material.dielectric_f0);
+    }
 }
 
-void pack(const PackedImage& image, const MapLevel& level, std::size_t begin, std::size_t end,
-          const pbr::MetallicMaterial<float>* materials, std::size_t to, std::vector<float>& packed) {
-    const std::size_t channels = image.channels.size();
-    for (std::size_t c = 0; c < channels; ++c)
-        pack_channel(image.channels[c], {level, begin, end, materials}, packed.data() + to * channels + c,
-                     channels);
+void pack(Held held, const Texels& texels, float* values) {
+    const MapLevel& level = texels.level;
+    const int first = static_cast<int>(held);
+    const auto fill = [&](const auto& value) {
+        for (std::size_t i = 0; i < texels.count; ++i) values[i] = value(texels.begin + i);
+    };
+    const auto fill_from = [&](const auto& map, float absent, const auto& value) {
+        if (map.empty()) return fill([&](std::size_t) { return absent; });
+        fill([&](std::size_t i) { return value(map[i]); });
+    };
+    const auto copy = [&](const std::vector<float>& plane, std::size_t from) {
+        std::copy_n(plane.begin() + static_cast<std::ptrdiff_t>(from), texels.count, values);
+    };
+    const std::vector<float>& grey_f0 = texels.dielectric_f0.channels[0];
+    const auto same = [](float value) { return value; };
+    switch (held) {
+        case zero:
+            return fill([](std::size_t) { return 0.f; });
+        case one:
+            return fill([](std::size_t) { return 1.f; });
+        case base_r:
+        case base_g:
+        case base_b: {
+            return copy(
+                texels.base_color.channels[static_cast<std::size_t>(first - static_cast<int>(base_r))], 0);
+        }
+        case opacity:
+            return fill_from(level.opacity, 1, same);
+        case metallic:
+            return copy(level.metallic, texels.begin);
+        case perceptual_roughness:
+            return fill_from(level.perceptual_roughness, 1, same);
+        case smoothness:
+            return fill_from(level.perceptual_roughness, 0, [](float p) { return 1 - p; });
+        case reflectance:
+            return fill([&](std::size_t i) {
+                return std::min(1.f, pbr::reflectance_from_f0(grey_f0[i - texels.begin]));
+            });
+        case specular:
+            return fill([&](std::size_t i) { return std::min(1.f, grey_f0[i - texels.begin] / kUnrealF0); });
+        case occlusion:
+            return fill_from(level.occlusion, 1, same);
+        case normal_x:
+            return fill_from(level.normal, .5f, [](const Colour& n) { return n.x * .5f + .5f; });
+        case normal_y:
+            return fill_from(level.normal, .5f, [](const Colour& n) { return n.y * .5f + .5f; });
+        case normal_y_down:
+            return fill_from(level.normal, .5f, [](const Colour& n) { return n.y * -.5f + .5f; });
+        case normal_z:
+            return fill_from(level.normal, 1, [](const Colour& n) { return n.z * .5f + .5f; });
+        case dielectric_r:
+        case dielectric_g:
+        case dielectric_b: {
+            return copy(texels.dielectric_f0
+                            .channels[static_cast<std::size_t>(first - static_cast<int>(dielectric_r))],
+                        0);
+        }
+        case emissive_r:
+        case emissive_g:
+        case emissive_b: {
+            const int c = first - static_cast<int>(emissive_r);
+            return fill_from(level.emissive, 0, [c](const Colour& light) { return light[c]; });
+        }
+        case diffuse_r:
+        case diffuse_g:
+        case diffuse_b: {
+            const int c = first - static_cast<int>(diffuse_r);
+            return fill([&level, c](std::size_t i) {
+                return pbr::diffuse_colour<float>({level.diffuse[i], level.f0[i]}, kSpecularGloss)[c];
+            });
+        }
+        case f0_r:
+        case f0_g:
+        case f0_b: {
+            const int c = first - static_cast<int>(f0_r);
+            return fill_from(level.f0, 0, [c](const Colour& f0) { return f0[c]; });
+        }
+    }
 }
 
 pbr::Reflected<float> packed_reflection(const Layout& layout, const MapLevel& level, std::size_t texel,

@@ -57,15 +57,25 @@ Layout layout_of(const Sources& sources);
 /// Names of the images that a set may have, before its pictures are known.
 std::vector<std::string> image_names(const TextureParams& params);
 
-/// The material that a texel of a level becomes in the layout; nothing in particular in a specular-gloss one,
-/// which holds the level as it is.
-pbr::MetallicMaterial<float> material_of(const TextureParams& params, const Layout& layout,
-                                         const MapLevel& level, std::size_t texel, const Colour& tolerance);
+/// Some texels of a level, and the materials that they become in a layout.
+struct Texels {
+    const MapLevel& level;
+    std::size_t begin, count;
+    Planes base_color, dielectric_f0;  ///< of `begin` first; metallic is the level's
 
-/// Packs texels [begin, end) of a level into an image of the layout, from texel `to` of `packed` on.
-/// materials[i - begin] is that of texel i. dielectric_f0 is packed as it is: its unit is known at the end.
-void pack(const PackedImage& image, const MapLevel& level, std::size_t begin, std::size_t end,
-          const pbr::MetallicMaterial<float>* materials, std::size_t to, std::vector<float>& packed);
+    pbr::MetallicMaterial<float> material(std::size_t i) const {
+        return {base_color[i], level.metallic[begin + i], dielectric_f0[i]};
+    }
+};
+
+/// Makes the materials, with diffuse light moved by up to its tolerance; nothing in particular in a
+/// specular-gloss layout, which holds the level as it is.
+void make_materials(const TextureParams& params, const Layout& layout, const pbr::ColourPlanes& tolerance,
+                    Texels& texels);
+
+/// What a channel holds of texels: `count` of `values`. dielectric_f0 is packed as it is: its unit is known
+/// at the end.
+void pack(Held held, const Texels& texels, float* values);
 
 /// What a texel of a level reflects once it is packed, before codes.
 pbr::Reflected<float> packed_reflection(const Layout& layout, const MapLevel& level, std::size_t texel,

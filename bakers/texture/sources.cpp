@@ -38,8 +38,6 @@ const std::array<float, 257> kSrgbSlopes = [] {
 Sources::Sources(const TextureParams& params, const Inputs& inputs)
     : rules_(apply_rules(params, inputs)),
       inputs_(inputs),
-      diffuse_factor_(colour_of(params.diffuse_factor)),
-      specular_factor_(colour_of(params.specular_factor)),
       gloss_reading_(find_gloss(rules_.params, inputs)) {
     for (const auto& [field, source] : inputs) {
         const Picture picture = picture_of(inputs, field);
@@ -56,8 +54,8 @@ Sources::Sources(const TextureParams& params, const Inputs& inputs)
     if (is_metallic && is_told)
         warnings_.push_back("surface: is stated as " + std::string(enum_name(rules_.params.surface)) +
                             ", but the set has a metallic mask, which is believed");
-    diffuse_ = map_of(is_metallic ? "base_color" : "diffuse", 0);
-    specular_ = map_of("specular", 0);
+    diffuse_ = colour_map_of(is_metallic ? "base_color" : "diffuse", colour_of(params.diffuse_factor));
+    specular_ = colour_map_of("specular", colour_of(params.specular_factor));
     occlusion_ = map_of("occlusion", 0);
     emissive_ = map_of("emissive", 0);
     metallic_ = params.metallic.empty() ? map_of("metallic_roughness", 2) : map_of("metallic", 0);
@@ -88,14 +86,23 @@ void Sources::warn_of_sizes(const Inputs& inputs) {
 Sources::Map Sources::map_of(const std::string& field, int channel) const {
     const Picture picture = picture_of(inputs_, field);
     if (picture.channels() <= channel) return {};
-    Map map{picture,
-            channel,
-            picture.width() == width_ && picture.height() == height_,
-            channel < 3 && picture.is_srgb(),
-            {}};
-    for (std::size_t code = 0; code < map.half_steps.size(); ++code)
-        map.half_steps[code] = half_step(picture.linear(static_cast<std::uint8_t>(code)), 8, map.is_srgb);
+    Map map{picture, channel, picture.width() == width_ && picture.height() == height_,
+            channel < 3 && picture.is_srgb(), false};
+    map.is_coded = map.is_full && picture.codes(0, 0);
     return map;
+}
+
+Sources::ColourMap Sources::colour_map_of(const std::string& field, const Colour& factor) const {
+    ColourMap colours{map_of(field, 0), factor, {}, {}};
+    if (!colours.map.is_coded) return colours;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t code = 0; code < 256; ++code) {
+            const float linear = colours.map.picture.linear(static_cast<std::uint8_t>(code));
+            const float scale = factor[static_cast<int>(c)];
+            colours.values[c][code] = std::min(linear * scale, 1.f);
+            colours.half_steps[c][code] = half_step(linear, 8, colours.map.is_srgb) * scale;
+        }
+    return colours;
 }
 
 /// Tangent-space normals point up, so they are blue.
@@ -110,11 +117,11 @@ void Sources::choose_opacity() {
     const TextureParams& params = rules_.params;
     opacity_ = map_of("opacity", 0);
     if (opacity_.picture || params.alpha_is == AlphaIs::nothing) return;
-    const Picture& colours = diffuse_.picture;
+    const Picture& colours = diffuse_.map.picture;
     const bool is_gloss = gloss_.picture && gloss_.picture.is_same(colours);
     if (colours.channels() < 4 || is_gloss) return;
     if (params.alpha_is != AlphaIs::opacity && !colours.varies(3)) return;
-    opacity_ = {colours, 3, diffuse_.is_full, false, {}};
+    opacity_ = {colours, 3, diffuse_.map.is_full, false, diffuse_.map.is_coded};
 }
 
 void Sources::fetch(const Map& map, int x, int y, float* values, int count) const {
@@ -141,10 +148,18 @@ void Sources::fetch(const Map& map, int x, int y, float* values, int count) cons
     }
 }
 
-float Sources::unit_value(const Map& map, int x, int y) const {
+void Sources::unit_values(const Map& map, int x, int y, int count, float* values) const {
+    for (int i = 0; i < count; ++i) {
+        values[i] = 1;
+        fetch(map, x + i, y, &values[i], 1);
+        values[i] = std::clamp(values[i], 0.f, 1.f);
+    }
+}
+
+float Sources::occlusion(int x, int y) const {
     float value = 1;
-    fetch(map, x, y, &value, 1);
-    return std::clamp(value, 0.f, 1.f);
+    unit_values(occlusion_, x, y, 1, &value);
+    return value;
 }
 
 /// The Blinn-Phong or Phong exponent that a gloss value stands for; < 0 where it stands for none.
@@ -209,93 +224,152 @@ void Sources::tabulate_gloss() {
         for (int code = 0; code < 256; ++code) lobes_.push_back(lobe_of(static_cast<float>(code / 255.)));
 }
 
-Sources::Lobe Sources::lobe_at(int x, int y) const {
-    if (!gloss_.picture) return lobes_.front();
-    float gloss = 0;
-    fetch(gloss_, x, y, &gloss, 1);
-    if (!lobes_.empty() && gloss >= 0 && gloss <= 1) {
-        const auto code = static_cast<std::size_t>(gloss * 255 + .5f);
-        if (static_cast<float>(static_cast<double>(code) / 255.) == gloss) return lobes_[code];
+/// The lobes of a row; those that aren't tabulated are kept in `own`.
+void Sources::read_lobes(int x, int y, std::vector<const Lobe*>& lobes, std::vector<Lobe>& own) const {
+    if (!gloss_.picture) {
+        std::ranges::fill(lobes, &lobes_.front());
+        return;
     }
-    return lobe_of(gloss);
-}
-
-void Sources::row(int y, LegacyTexel* texels) const {
-    for (int x = 0; x < width_; ++x) texels[x] = texel(x, y);
-}
-
-/// Without a map, white times its factor.
-Colour Sources::colour(const Map& map, const Colour& factor, int x, int y, Colour& half_steps) const {
-    if (!map.picture) return glm::min(factor, Colour(1));
-    Colour result;
-    if (const std::uint8_t* codes = map.is_full ? map.picture.codes(x, y) : nullptr) {
-        for (int c = 0; c < 3; ++c) {
-            result[c] = std::min(map.picture.linear(codes[c]) * factor[c], 1.f);
-            half_steps[c] = map.half_steps[codes[c]] * factor[c];
+    const bool has_codes = gloss_.is_coded && !lobes_.empty();
+    for (std::size_t i = 0; i < lobes.size(); ++i) {
+        const int column = x + static_cast<int>(i);
+        if (has_codes) {
+            lobes[i] = &lobes_[gloss_.picture.codes(column, y)[gloss_.channel]];
+            continue;
         }
-        return result;
+        float gloss = 0;
+        fetch(gloss_, column, y, &gloss, 1);
+        const auto code = static_cast<std::size_t>(std::clamp(gloss, 0.f, 1.f) * 255 + .5f);
+        if (!lobes_.empty() && static_cast<float>(static_cast<double>(code) / 255.) == gloss) {
+            lobes[i] = &lobes_[code];
+            continue;
+        }
+        own.push_back(lobe_of(gloss));
+        lobes[i] = &own.back();
     }
-    fetch(map, x, y, &result.x, 3);
-    for (int c = 0; c < 3; ++c) {
-        half_steps[c] = factor[c] * half_step(result[c], map.picture.bits(), map.is_srgb);
-        result[c] = std::clamp(result[c] * factor[c], 0.f, 1.f);
+}
+
+void Sources::read_colours(const ColourMap& colours, int x, int y, Planes& values, Planes& half_steps) const {
+    const std::size_t count = values.channels[0].size();
+    const Map& map = colours.map;
+    if (!map.picture) {
+        values.fill(glm::min(colours.factor, Colour(1)));
+        return half_steps.fill(Colour(0));
     }
-    return result;
+    if (map.is_coded) {
+        const std::uint8_t* codes = map.picture.codes(x, y);
+        const auto step = static_cast<std::size_t>(map.picture.channels());
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::uint8_t code = codes[i * step + c];
+                values.channels[c][i] = colours.values[c][code];
+                half_steps.channels[c][i] = colours.half_steps[c][code];
+            }
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        Colour value, step;
+        fetch(map, x + static_cast<int>(i), y, &value.x, 3);
+        for (int c = 0; c < 3; ++c)
+            step[c] = colours.factor[c] * half_step(value[c], map.picture.bits(), map.is_srgb);
+        values.set(i, glm::clamp(value * colours.factor, Colour(0), Colour(1)));
+        half_steps.set(i, step);
+    }
 }
 
 LegacyTexel Sources::texel(int x, int y) const {
-    LegacyTexel texel{};
-    const Colour diffuse = colour(diffuse_, diffuse_factor_, x, y, texel.quantisation.diffuse);
-    const Lobe lobe = lobe_at(x, y);
-    texel.perceptual_roughness = lobe.perceptual_roughness;
-    if (rules_.params.model == Model::metallic_roughness) {
-        reflect_metallic(diffuse, x, y, texel);
-        return texel;
+    LegacyRow row(1);
+    read(x, y, row);
+    return row[0];
+}
+
+void Sources::read(int x, int y, LegacyRow& row) const {
+    read_colours(diffuse_, x, y, row.diffuse, row.diffuse_step);
+    std::vector<const Lobe*> lobes(row.texels());
+    std::vector<Lobe> own;
+    own.reserve(row.texels());  // lobes point to them
+    read_lobes(x, y, lobes, own);
+    for (std::size_t i = 0; i < lobes.size(); ++i)
+        row.perceptual_roughness[i] = lobes[i]->perceptual_roughness;
+    if (rules_.params.model == Model::metallic_roughness) return reflect_metallic(x, y, row);
+    read_colours(specular_, x, y, row.f0, row.f0_step);
+    if (!has_specular()) row.f0.fill(Colour(static_cast<float>(rules_.params.dielectric_f0)));
+    has_legacy_lobe() ? reflect_phong(lobes, row) : reflect_specular(row);
+}
+
+/// pbr::reflected_from_specular of colours that were read in place.
+void Sources::reflect_specular(LegacyRow& row) const {
+    if (coupling_ == pbr::DiffuseCoupling::none) return;
+    const auto& f0 = row.f0.channels;
+    for (std::size_t i = 0; i < row.texels(); ++i) {
+        const float left = 1 - std::max(f0[0][i], std::max(f0[1][i], f0[2][i]));
+        for (std::size_t c = 0; c < 3; ++c) {
+            row.diffuse.channels[c][i] *= left;
+            row.diffuse_step.channels[c][i] *= left;
+        }
     }
-    Colour specular = colour(specular_, specular_factor_, x, y, texel.quantisation.f0);
-    if (!has_specular()) specular = Colour(static_cast<float>(rules_.params.dielectric_f0));
-    if (has_legacy_lobe()) {
-        reflect_phong(diffuse, specular, lobe, texel);
-        return texel;
-    }
-    texel.reflected = pbr::reflected_from_specular(diffuse, specular, coupling_);
-    if (coupling_ == pbr::DiffuseCoupling::fresnel)
-        texel.quantisation.diffuse *= 1 - pbr::max_channel(specular);
-    return texel;
 }
 
 /// As glTF couples them, whatever the target.
-void Sources::reflect_metallic(const Colour& base, int x, int y, LegacyTexel& texel) const {
+void Sources::reflect_metallic(int x, int y, LegacyRow& row) const {
     const auto f = static_cast<float>(rules_.params.dielectric_f0);
-    texel.metallic = metallic_.picture ? unit_value(metallic_, x, y) : 0;
-    texel.reflected =
-        pbr::reflected_from_metallic<float>({base, texel.metallic, Colour(f)}, pbr::DiffuseCoupling::fresnel);
-    texel.quantisation.diffuse *= (1 - texel.metallic) * (1 - f);
+    if (metallic_.picture)
+        unit_values(metallic_, x, y, static_cast<int>(row.texels()), row.metallic.data());
+    else
+        std::ranges::fill(row.metallic, 0.f);
+    for (std::size_t i = 0; i < row.texels(); ++i) {
+        const float metallic = row.metallic[i];
+        const auto reflected = pbr::reflected_from_metallic<float>({row.diffuse[i], metallic, Colour(f)},
+                                                                   pbr::DiffuseCoupling::fresnel);
+        row.diffuse.set(i, reflected.diffuse);
+        row.f0.set(i, reflected.f0);
+        row.diffuse_step.set(i, row.diffuse_step[i] * ((1 - metallic) * (1 - f)));
+    }
 }
 
-void Sources::reflect_phong(const Colour& diffuse, const Colour& specular, const Lobe& lobe,
-                            LegacyTexel& texel) const {
-    texel.specular_albedo = specular * lobe.mean;
+void Sources::reflect_phong(const std::vector<const Lobe*>& lobes, LegacyRow& row) const {
     const auto scattering = rules_.params.multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
-    const float grey = pbr::mean_channel(texel.specular_albedo);
-    const pbr::SolvedF0 solved = pbr::f0_from_mean_albedo(static_cast<double>(grey), lobe.ggx, scattering);
-    const float scale = grey > 0 ? static_cast<float>(solved.f0) / grey : 0;
-    texel.reflected = {diffuse, glm::min(texel.specular_albedo * scale, Colour(1))};
-    texel.quantisation.f0 *= lobe.mean * scale;
-    texel.f0_clamped = solved.clamped || pbr::max_channel(texel.specular_albedo) * scale > 1;
+    for (std::size_t i = 0; i < row.texels(); ++i) {
+        const Lobe& lobe = *lobes[i];
+        const Colour albedo = row.f0[i] * lobe.mean;
+        const float grey = pbr::mean_channel(albedo);
+        const pbr::SolvedF0 solved =
+            pbr::f0_from_mean_albedo(static_cast<double>(grey), lobe.ggx, scattering);
+        const float scale = grey > 0 ? static_cast<float>(solved.f0) / grey : 0;
+        row.specular_albedo.set(i, albedo);
+        row.f0.set(i, glm::min(albedo * scale, Colour(1)));
+        row.f0_step.set(i, row.f0_step[i] * (lobe.mean * scale));
+        row.f0_clamped[i] = solved.clamped || pbr::max_channel(albedo) * scale > 1;
+    }
 }
 
-Colour Sources::normal(int x, int y) const {
-    Colour n;
-    fetch(normal_, x, y, &n.x, 3);
-    // 8-bit maps put level at code 128 or 127.5; 255/2 is what most writers mean.
-    return n * 2.f - 1.f;
+void Sources::read_normals(int y, std::size_t to, Planes& normals) const {
+    for (int x = 0; x < width_; ++x) {
+        Colour n;
+        fetch(normal_, x, y, &n.x, 3);
+        // 8-bit maps put level at code 128 or 127.5; 255/2 is what most writers mean.
+        normals.set(to + static_cast<std::size_t>(x), n * 2.f - 1.f);
+    }
 }
 
-Colour Sources::emissive(int x, int y) const {
-    Colour value;
-    fetch(emissive_, x, y, &value.x, 3);
-    return glm::clamp(value, Colour(0), Colour(1));
+void Sources::read_emissive(int y, std::size_t to, Planes& light) const {
+    for (int x = 0; x < width_; ++x) {
+        Colour value;
+        fetch(emissive_, x, y, &value.x, 3);
+        light.set(to + static_cast<std::size_t>(x), glm::clamp(value, Colour(0), Colour(1)));
+    }
+}
+
+LegacyRow::LegacyRow(int texels) : perceptual_roughness(static_cast<std::size_t>(texels)) {
+    const auto count = static_cast<std::size_t>(texels);
+    for (Planes* planes : {&diffuse, &f0, &specular_albedo, &diffuse_step, &f0_step}) planes->resize(count);
+    metallic.assign(count, -1.f);
+    f0_clamped.resize(count);
+}
+
+LegacyTexel LegacyRow::operator[](std::size_t i) const {
+    return {{diffuse[i], f0[i]}, specular_albedo[i], perceptual_roughness[i],
+            metallic[i],         f0_clamped[i] != 0, {diffuse_step[i], f0_step[i]}};
 }
 
 }  // namespace pbrbake::texture

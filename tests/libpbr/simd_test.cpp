@@ -13,6 +13,7 @@
 #include "pbr/ibl/ld_harmonic.hpp"
 #include "pbr/ibl/ld_mis.hpp"
 #include "pbr/ibl/near_field.hpp"
+#include "pbr/legacy/texel_planes.hpp"
 #include "pbr/numerics/sequence.hpp"
 
 namespace pbr {
@@ -33,9 +34,29 @@ class OneTarget {
 
 struct Results {
     std::vector<double> dfg, exact, near, bright, spectrum;
-    std::vector<float> sampled, mis, harmonic, means, bilinear;
+    std::vector<float> sampled, mis, harmonic, means, bilinear, planes;
     bool operator==(const Results&) const = default;
 };
+
+/// Metallic, confidence, base colour and dielectric f0 of noise, a plane each.
+std::vector<float> texel_planes() {
+    constexpr std::size_t kTexels = 301, kPlanes = 9;
+    std::vector<float> noise(kPlanes * kTexels), planes(8 * kTexels);
+    for (std::size_t i = 0; i < noise.size(); ++i)
+        noise[i] = static_cast<float>(random_unit(2, i)) * (i < 6 * kTexels ? 1.f : .003f);
+    const auto colours = [&](std::size_t first) {
+        return ColourPlanes{&noise[first * kTexels], &noise[(first + 1) * kTexels],
+                            &noise[(first + 2) * kTexels]};
+    };
+    const ReflectedPlanes reflected{colours(0), colours(3)};
+    const auto to = [&](std::size_t plane) { return &planes[plane * kTexels]; };
+    constexpr auto kCoupling = DiffuseCoupling::fresnel;
+    estimate_metallic(reflected, {.04f, .02f, .01f}, {colours(6), colours(6)}, kCoupling, kTexels, to(0),
+                      to(1));
+    material_with_residual(reflected, to(0), .04f, colours(6), kCoupling, kTexels,
+                           {{to(2), to(3), to(4)}, {to(5), to(6), to(7)}});
+    return planes;
+}
 
 Results run_kernels() {
     Results results;
@@ -94,6 +115,7 @@ Results run_kernels() {
     for (int m = 0; m <= 6; ++m)
         results.spectrum.insert(results.spectrum.end(), spectrum.of_order(m).begin(),
                                 spectrum.of_order(m).end());
+    results.planes = texel_planes();
     return results;
 }
 
@@ -113,6 +135,7 @@ TEST(Simd, EveryVectorWidthGivesTheSameBits) {
         EXPECT_EQ(results.near, widest.near) << hwy::TargetName(target);
         EXPECT_EQ(results.bright, widest.bright) << hwy::TargetName(target);
         EXPECT_EQ(results.spectrum, widest.spectrum) << hwy::TargetName(target);
+        EXPECT_EQ(results.planes, widest.planes) << hwy::TargetName(target);
         ++compared;
     }
     EXPECT_GE(compared, 2);  // else no second width was there to compare

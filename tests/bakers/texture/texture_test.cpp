@@ -98,6 +98,43 @@ TEST(Texture, BytesDoNotDependOnThreads) {
     EXPECT_EQ(one.figure("delta_e_mean"), three.figure("delta_e_mean"));
 }
 
+/// Of a library's maps nearly all dielectrics have one f0; what the brightest has may not spoil it.
+TEST(Texture, TheF0ThatMostTexelsHaveIsStoredExactly) {
+    for (const float common : {.0395f, .0409f, .033f})
+        for (const float largest : {.055f, .0978f, .11f}) {
+            Inputs inputs;
+            inputs["diffuse"] = source(32, 32, 3, 0, [](int, int) { return Rgba{.2f, .2f, .2f, 1}; });
+            inputs["specular"] = source(32, 32, 3, 0, [&](int x, int y) {
+                const float f0 = x == 0 && y == 0 ? largest : common;
+                return Rgba{f0, f0, f0, 1};
+            });
+            TextureParams params = defaults();
+            params.surface = SurfaceIs::dielectric;
+            const Baked baked = bake_set(params, inputs, PixelType::unorm8);
+            const float unit = baked.set()["dielectric_f0_unit"].get<float>();
+            EXPECT_NEAR(*baked.image("specular").texel(0, 0, 9, 9) * unit, common, 2e-4 * common);
+            EXPECT_GE(unit, largest);
+            EXPECT_LE(unit, 1.05 * largest);
+        }
+}
+
+/// A specular map that is no metal's by its colours, as one factor is.
+TEST(Texture, GreySpecularMapsOverSaturatedColoursStayDielectric) {
+    Inputs inputs;
+    inputs["diffuse"] = source(32, 32, 3, 8, [](int x, int) {
+        return x < 16 ? Rgba{.5f, .05f, .02f, 1} : Rgba{.02f, .1f, .4f, 1};
+    });
+    inputs["specular"] = source(32, 32, 3, 8, [](int x, int y) {
+        const float f0 = .06f + .14f * static_cast<float>(x + y) / 62;
+        return Rgba{f0, f0, f0, 1};
+    });
+    const Baked baked = bake_set(defaults(), inputs, PixelType::float32);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) EXPECT_LT(baked.image("orm").texel(0, 0, y, x)[2], .02f);
+    EXPECT_LT(baked.figure("f0_max_error"), 1e-6);
+    EXPECT_LT(baked.figure("diffuse_max_error"), 1. / 255);
+}
+
 TEST(Texture, NoiseDoesNotLeadBeyondWhite) {
     TextureParams params = defaults();
     params.dither = true;

@@ -148,6 +148,24 @@ TEST(Metallic, ClearCasesAreClear) {
     EXPECT_LT(estimate(.3, .05).metallic, .01);  // a glossier dielectric
 }
 
+/// Gems and coated paint: no metal has a grey f0 below a quarter beside a colour, and a residual can hold it.
+TEST(Metallic, GreyF0AboveDielectricsOverASaturatedColourIsNoMetal) {
+    for (const double s : {.06, .08, .1, .15, .2})
+        for (const Colour& diffuse :
+             {Colour(.5, .05, .02), Colour(.05, .35, .05), Colour(.02, .1, .4), Colour(.6, .4, .02)}) {
+            const Reflected<double> gem{diffuse, Colour(s)};
+            for (const double step : {0., .002}) {
+                const auto m = estimate_metallic(gem, {.04, .02, .01}, {Colour(step), Colour(step)}, none);
+                EXPECT_LT(m.metallic, .02) << s << " " << diffuse.x << " " << step;
+                EXPECT_LT(m.confidence, .8) << s << " " << diffuse.x;
+            }
+        }
+    // The same f0 in the colours of a metal in part is one.
+    const auto copper = reflected_from_metallic<double>({Colour(.95, .64, .54), .5, Colour(.04)}, none);
+    EXPECT_NEAR(estimate_metallic(copper, {.04, .02, .01}, {Colour(.002), Colour(.002)}, none).metallic, .5,
+                .01);
+}
+
 // --- there and back
 // ----------------------------------------------------------------------------------------------
 

@@ -124,16 +124,26 @@ T metallic_root(T diffuse, T f0, T dielectric_f0) {
     return std::min(m, T(1));
 }
 
+/// e^x - 1 with a heavy tail, for x >= 0: odds that one number tells are never beyond recall. Exact to 4
+/// roundings.
+template <class T>
+constexpr T heavy_tailed_odds(T x) {
+    return x * (T(1) + x * (T(1) + x));
+}
+
 /// A metallic estimate that is continuous in its data. The root of the channel means, times the odds that the
-/// surface isn't a dielectric after all: with x = 1/2 mean((f0 - dielectric_f0)+^2) / (quantisation^2 +
-/// f0_tolerance^2) and t = x (1 + x (1 + x)), a heavy-tailed stand-in for e^x - 1, they are metal_odds t : 1.
-/// So metallic is 0 where f0 is the dielectric's, and the root where it is far from it.
+/// surface isn't a dielectric after all. These are metal_odds t(x) : 1 + t(y), t = heavy_tailed_odds. x says
+/// how far f0 is from the usual dielectric's: 1/2 mean((f0 - dielectric_f0)+^2) / (quantisation^2 +
+/// f0_tolerance^2). y says how far the colours are from that metal's, as a grey f0 over a saturated diffuse
+/// colour is: 1/2 sum(e^2) / (quantisation^2 + .02^2), with e a channel's departure of f0 from the material
+/// of the root. So metallic is 0 where f0 is the dielectric's, and the root where f0 is far from it and has
+/// the colours that the root says.
 ///
 /// Confidence is 1 minus the range of the root over diffuse -+ quantisation, f0 -+ (quantisation +
 /// f0_tolerance): 0 for black with f0 = dielectric_f0; and minus what the odds took from the root. It falls
-/// as 1 / (1 + e^2), with e the worst channel's departure from the material found in units of .02 plus its
-/// interval; again with e what f0 is short of any dielectric's, in tenths of dielectric_f0; and as f0 / .02
-/// below water's f0, which no surface has. Reflectances in [0, 1]; NaN channels count as 0.
+/// as 1 / (1 + e^2), with e of the worst channel in units of .02 plus its interval; again with e what f0 is
+/// short of any dielectric's, in tenths of dielectric_f0; and as f0 / .02 below water's f0, which no surface
+/// has. Reflectances in [0, 1]; NaN channels count as 0.
 template <class T>
 MetallicEstimate<T> estimate_metallic(const Reflected<T>& reflected, const MetallicPrior<T>& prior,
                                       const Quantisation<T>& quantisation, DiffuseCoupling coupling) {
@@ -151,24 +161,24 @@ MetallicEstimate<T> estimate_metallic(const Reflected<T>& reflected, const Metal
     const T q_f0 = std::max(mean_channel(quantisation.f0), kSharpest);
     const T d = mean_channel(diffuse), s = mean_channel(f0);
 
-    T squares = 0;
+    const T root = metallic_root(d, s, f);
+    T squares = 0, strays = 0, worst = 0;
     for (int c = 0; c < 3; ++c) {
         const T excess = std::max(T(0), f0[c] - f);
         squares += excess * excess / T(3);
+        const T base = diffuse[c] + f0[c] - f * (T(1) - root);
+        const T stray = f0[c] - f * (T(1) - root) - base * root;
+        strays += stray * stray;
+        worst = std::max(worst, std::abs(stray));
     }
     const T x = squares / (T(2) * (q_f0 * q_f0 + prior.f0_tolerance * prior.f0_tolerance));
-    const T odds = prior.metal_odds * x * (T(1) + x * (T(1) + x));
-    const T root = metallic_root(d, s, f);
+    const T y = strays / (T(2) * (q_f0 * q_f0 + kDoubt * kDoubt));
+    const T odds = prior.metal_odds * heavy_tailed_odds(x) / (T(1) + heavy_tailed_odds(y));
     const T m = root * (odds / (T(1) + odds));
 
     const T reach = q_f0 + prior.f0_tolerance;
     const T highest = metallic_root(std::max(T(0), d - q_diffuse), s + reach, f);
     const T lowest = metallic_root(d + q_diffuse, s - reach, f);
-    T worst = 0;
-    for (int c = 0; c < 3; ++c) {
-        const T base = diffuse[c] + f0[c] - f * (T(1) - root);
-        worst = std::max(worst, std::abs(f0[c] - f * (T(1) - root) - base * root));
-    }
     const T departure = s > f ? worst / (kDoubt + reach) : T(0);
     const T shortfall = std::max(T(0), f - reach - s) / (T(.1) * f);
     const T plausible = std::min(T(1), s / kWater) / (T(1) + shortfall * shortfall);
