@@ -261,9 +261,36 @@ Figure energy_figure(const TotalEstimate& surplus, double source_energy, double 
     return figure;
 }
 
-/// What the errors of a sample's tiles, in its order, say of a level.
-std::vector<Figure> figures_of(const LevelCheck& check, const TileSample& sample,
-                               std::span<const TileError> errors) {
+/// Tiles of a level that were measured.
+struct Measured {
+    TileSample sample;
+    std::vector<TileError> errors;  ///< in its order
+};
+
+/// Measures a filtered level against the exact sum, on all texels or on `count` of them.
+Measured measure(const LevelCheck& check, int count, const ProbeParams& params, Context& context) {
+    const int size = size_of_level(params, check.level);
+    const bool tiled = context.certify_fully() && size >= kSmallestTiled;
+    const Tiling tiles(size, tiled ? kTile : 1, tiled ? kTile : 1);
+    if (context.certify_fully()) count = static_cast<int>(tiles.count());
+    const TileSample sample = choose_tiles(tiles.brightness(check.product.images[0], check.level), count,
+                                           pbr::random_bits(params.seed, 0x6365u, check.level));
+    std::vector<std::size_t> chosen = sample.certain;
+    chosen.insert(chosen.end(), sample.drawn.begin(), sample.drawn.end());
+    context.expect(static_cast<double>(chosen.size()));
+    std::vector<TileError> errors(chosen.size());
+    context.parallel_for(static_cast<std::int64_t>(chosen.size()), 1, [&](std::int64_t begin, std::int64_t) {
+        const auto k = static_cast<std::size_t>(begin);
+        errors[k] = error_of_tile(check, tiles[chosen[k]]);
+        context.count("certify.ld", errors[k].evaluations);
+        context.advance(1);
+    });
+    return {sample, errors};
+}
+
+/// What measured tiles say of their level.
+std::vector<Figure> level_figures(const LevelCheck& check, const Measured& measured) {
+    const auto& [sample, errors] = measured;
     const int size = check.product.images[0].levels[static_cast<std::size_t>(check.level)].width;
     const double mean = mean_of_level(check.product, check.level);
     std::vector<double> squared, energy;
@@ -302,28 +329,6 @@ std::vector<Figure> figures_of(const LevelCheck& check, const TileSample& sample
          "the mean",
          {},
          check.level}};
-}
-
-/// A filtered level against the exact sum, on all texels or on `count` of them.
-std::vector<Figure> level_figures(const LevelCheck& check, int count, const ProbeParams& params,
-                                  Context& context) {
-    const int size = size_of_level(params, check.level);
-    const bool tiled = context.certify_fully() && size >= kSmallestTiled;
-    const Tiling tiles(size, tiled ? kTile : 1, tiled ? kTile : 1);
-    if (context.certify_fully()) count = static_cast<int>(tiles.count());
-    const TileSample sample = choose_tiles(tiles.brightness(check.product.images[0], check.level), count,
-                                           pbr::random_bits(params.seed, 0x6365u, check.level));
-    std::vector<std::size_t> chosen = sample.certain;
-    chosen.insert(chosen.end(), sample.drawn.begin(), sample.drawn.end());
-    context.expect(static_cast<double>(chosen.size()));
-    std::vector<TileError> errors(chosen.size());
-    context.parallel_for(static_cast<std::int64_t>(chosen.size()), 1, [&](std::int64_t begin, std::int64_t) {
-        const auto k = static_cast<std::size_t>(begin);
-        errors[k] = error_of_tile(check, tiles[chosen[k]]);
-        context.count("certify.ld", errors[k].evaluations);
-        context.advance(1);
-    });
-    return figures_of(check, sample, errors);
 }
 
 /// A check of all texels that needs no exact sum.
@@ -365,10 +370,15 @@ Certificate certify(const ProbeParams& params, const Inputs& inputs, const Produ
                         l}};
         } else {
             const double alpha = alpha_of_level(params, l);
-            figures = level_figures(
-                {product, tree, l, alpha, std::min(1.0, kFarFieldShare * method.max_error),
-                 kSlack * method.max_error, source_energy},
-                method.integrator == Integrator::harmonic ? kChecked : kCheckedOfSamples, params, context);
+            const LevelCheck check{product,
+                                   tree,
+                                   l,
+                                   alpha,
+                                   std::min(1.0, kFarFieldShare * method.max_error),
+                                   kSlack * method.max_error,
+                                   source_energy};
+            const int count = method.integrator == Integrator::harmonic ? kChecked : kCheckedOfSamples;
+            figures = level_figures(check, measure(check, count, params, context));
             figures.push_back(low_band_figure(product, source_moments, source_mean, alpha, l, context));
         }
 
