@@ -43,13 +43,12 @@ struct LdSamples {
 
 /// The first `count` samples for alpha in (0, 1] on a pyramid whose level 0 has `base_size` >= 2 texels a
 /// side. importance_sampling reads level 0, filtered_importance_sampling level log2(K Omega_s / Omega_p) / 2
-/// with Omega_s = 1/(count k), and Omega_p = 4 pi / (6 base_size^2), the mean of level 0's texels. K =
-/// `level_bias` > 0 trades bias (large) for noise (small).
+/// with Omega_s = 1/(count k), and Omega_p = 4 pi / (6 base_size^2), the mean of level 0's texels: a level's
+/// footprints are equally wide everywhere. K = `level_bias` > 0 trades bias (large) for noise (small).
 ///
-/// The texel's own solid angle in place of the mean would follow its size, at most 2.3 times smaller at
-/// corners. But the level would then change from place to place, and with it how much of a lamp is seen
-/// beside where it is: at 32 samples a sun lost up to 8 % of its energy, and its centroid moved. Errors are
-/// the same else.
+/// The centroid of a lamp of one texel is then off by noise, and by bias up to .04, .02, .01 of the texels of
+/// a level that halves with each doubling of alpha from 128 at .04, at 16, 32 and 64 samples or more; its
+/// flux is within 1 %.
 LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int base_size, double level_bias);
 
 /// Texels of a level of `size` by sampling: the unweighted mean over samples (their density is the whole
@@ -90,8 +89,8 @@ LdTreeError ld_exact(const MomentTree& source, double alpha, double tolerance,
                      std::uint64_t& evaluations);
 
 /// The same sum over part of a sphere, not divided by anything: what the texels of `part` add to LD. Relative
-/// error below 1e-5; of texels that the horizon cuts, by 32 x 32 points, below 1e-4 of what a whole texel adds
-/// one texel higher.
+/// error below 1e-5; of texels that the horizon cuts, by 32 x 32 points, below 1e-4 of what a whole texel
+/// adds one texel higher.
 void ld_partial(const PatchBlocks& part, double alpha, std::span<const glm::dvec3> directions,
                 std::span<double> rgb_out, std::uint64_t& evaluations);
 
