@@ -46,9 +46,9 @@ struct LdSamples {
 /// with Omega_s = 1/(count k), and Omega_p = 4 pi / (6 base_size^2), the mean of level 0's texels: a level's
 /// footprints are equally wide everywhere. K = `level_bias` > 0 trades bias (large) for noise (small).
 ///
-/// The centroid of a lamp of one texel is then off by noise, and by bias up to .04, .02, .01 of the texels of
-/// a level that halves with each doubling of alpha from 128 at .04, at 16, 32 and 64 samples or more; its
-/// flux is within 1 %.
+/// The centroid of a lamp of one texel is then off by noise, and by bias of up to .04, .02 and .01 of a
+/// level's texels at 16, 32 and 64 samples or more, in a probe of 256 texels a side and six levels; its flux
+/// is within 1 %.
 LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int base_size, double level_bias);
 
 /// Texels of a level of `size` by sampling: the unweighted mean over samples (their density is the whole
