@@ -1,6 +1,7 @@
 #include "pbr/ibl/cube_pyramid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -8,73 +9,51 @@
 #include <limits>
 
 #include "pbr/ibl/cubemap.hpp"
-#include "pbr/numerics/quadrature.hpp"
+#include "src/ibl/pyramid_tables.hpp"
 
 namespace pbr {
 namespace {
 
-/// Values of a face's texels that are the same on every face and in each of its eighths.
-class FaceTable {
-  public:
-    template <class F>
-    FaceTable(int n, const F& value) : n_(n), values_(static_cast<std::size_t>(n) * n) {
-        for (int y = 0; 2 * y < n; ++y)
-            for (int x = 0; x <= y; ++x) {
-                const double of_texel = value(x, y);
-                for (const auto& [i, j] : {std::pair{x, y}, {y, x}})
-                    for (const int column : {i, n - 1 - i})
-                        for (const int row : {j, n - 1 - j}) at(column, row) = of_texel;
-            }
-    }
-    /// Indices outside mean the neighbour across the edge, which has the value of the texel at it.
-    double operator()(int x, int y) const {
-        return values_[static_cast<std::size_t>(std::clamp(y, 0, n_ - 1)) * n_ + std::clamp(x, 0, n_ - 1)];
-    }
-
-  private:
-    double& at(int x, int y) { return values_[static_cast<std::size_t>(y) * n_ + x]; }
-    int n_;
-    std::vector<double> values_;
-};
-
-/// A point of a face's axis with the bilinear weight of a texel there, times the quadrature's.
-struct HatNode {
-    double s, weight;
-};
-
-/// Nodes on the half texels around a texel. Beyond the outermost middles the weight is 1: there the border
-/// has a share, but as much comes back from the neighbour's border.
-std::vector<HatNode> hat_nodes(int n, int index, const QuadratureRule& rule) {
-    std::vector<HatNode> nodes;
-    for (int half = std::max(0, 2 * index - 1); half <= std::min(2 * n - 1, 2 * index + 2); ++half)
-        for (int i = 0; i < rule.size(); ++i) {
-            const double at = (half + rule.nodes[i]) / 2;
-            const bool outermost = half == 0 || half == 2 * n - 1;
-            const double weight = outermost ? 1 : 1 - std::abs(at - index - 0.5);
-            nodes.push_back({2 * at / n - 1, weight * rule.weights[i] / n});
-        }
-    return nodes;
-}
-
-/// H: the integral of each texel's bilinear weight over solid angle. Relative error below 1e-4.
-FaceTable hat_solid_angles(int n) {
-    const QuadratureRule rule = gauss_legendre(n >= 64 ? 1 : n >= 16 ? 2 : 5);
-    std::vector<std::vector<HatNode>> nodes;
-    for (int i = 0; i < n; ++i) nodes.push_back(hat_nodes(n, i, rule));
-    return {n, [&](int x, int y) {
-                double sum = 0;
-                for (const HatNode& a : nodes[static_cast<std::size_t>(x)])
-                    for (const HatNode& b : nodes[static_cast<std::size_t>(y)]) {
-                        const double q = 1 + a.s * a.s + b.s * b.s;
-                        sum += a.weight * b.weight / (q * std::sqrt(q));
-                    }
-                return sum;
-            }};
-}
-
 /// Flux over H: no more than the largest float, where H is smaller than the texel.
 float stored(double value) {
     return static_cast<float>(std::min(value, static_cast<double>(std::numeric_limits<float>::max())));
+}
+
+/// A level's padded faces: six times (n + 2)^2 texels of four floats.
+struct PaddedLevel {
+    int n;
+    float* texels;
+    std::size_t row() const { return 4 * (static_cast<std::size_t>(n) + 2); }
+    std::size_t face() const { return row() * (static_cast<std::size_t>(n) + 2); }
+};
+
+/// Sets each texel of a level to a weighted sum of K x K texels of another, whose first lie at (x, y) times
+/// `step` of the padded face.
+template <int K>
+void weighted_sums(const PaddedLevel& from, int step, const QuarterTable<std::array<double, K * K>>& weights,
+                   const PaddedLevel& to) {
+    const int side = (to.n + 1) / 2;
+    for (int quarter = 0; quarter < 24; ++quarter) {  // of the six faces
+        const bool right = quarter % 2 != 0, lower = quarter / 2 % 2 != 0;
+        const std::ptrdiff_t next_x = right ? -4 : 4, of_row = static_cast<std::ptrdiff_t>(from.row()),
+                             next_y = lower ? -of_row : of_row;
+        const float* first = from.texels + static_cast<std::size_t>(quarter / 4) * from.face() +
+                             (lower ? from.face() - from.row() : 0) + (right ? from.row() - 4 : 0);
+        float* face = to.texels + static_cast<std::size_t>(quarter / 4) * to.face();
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const std::array<double, K* K>& w = weights(x, y);
+                const float* at = first + step * (x * next_x + y * next_y);
+                double sum[4] = {0, 0, 0, 0};
+                for (int k = 0; k < K * K; ++k)
+                    for (int c = 0; c < 4; ++c)
+                        sum[c] += w[static_cast<std::size_t>(k)] *
+                                  static_cast<double>(at[k % K * next_x + k / K * next_y + c]);
+                const int column = right ? to.n - x : x + 1, row = lower ? to.n - y : y + 1;
+                std::transform(sum, sum + 4, face + static_cast<std::size_t>(row) * to.row() + 4 * column,
+                               stored);
+            }
+    }
 }
 
 }  // namespace
@@ -84,9 +63,9 @@ CubePyramid::CubePyramid(std::span<const float> rgb, int size)
     assert(size > 0 && size <= 4096 && (size & (size - 1)) == 0 &&
            rgb.size() == static_cast<std::size_t>(size) * size * 18);
     texels_.resize(static_cast<std::size_t>(offset(-1)));  // where a finer level would begin
-    FaceTable finer_hats = hat_solid_angles(size);
-    const FaceTable per_hat(
-        size, [&](int x, int y) { return cubemap_texel_solid_angle(size, x, y) / finer_hats(x, y); });
+    QuarterTable<Hat> hats = make_hats(size);
+    const QuarterTable<double> per_hat(
+        size, [&](int x, int y) { return cubemap_texel_solid_angle(size, x, y) / hats(x, y).solid_angle; });
     for (int f = 0; f < 6; ++f)
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
@@ -97,27 +76,19 @@ CubePyramid::CubePyramid(std::span<const float> rgb, int size)
             }
     fill_border(0);
     for (int level = 1; level < levels(); ++level) {
-        constexpr double kShares[] = {1. / 4, 3. / 4, 3. / 4,
-                                      1. / 4};  // of finer texels around a coarser one
-        const int n = size_of(level);
-        FaceTable hats = hat_solid_angles(n);
-        for (int y = 0; y < n; ++y)
-            for (int x = 0; x < n; ++x) {
-                double weights[16];
-                for (int k = 0; k < 16; ++k)
-                    weights[k] = kShares[k % 4] * kShares[k / 4] *
-                                 finer_hats(2 * x - 1 + k % 4, 2 * y - 1 + k / 4) / hats(x, y);
-                for (int f = 0; f < 6; ++f) {
-                    double sum[4] = {0, 0, 0, 0};
-                    for (int k = 0; k < 16; ++k) {
-                        const float* from = texel(level - 1, f, 2 * x - 1 + k % 4, 2 * y - 1 + k / 4);
-                        for (int c = 0; c < 4; ++c) sum[c] += weights[k] * static_cast<double>(from[c]);
-                    }
-                    std::transform(sum, sum + 4, texel(level, f, x, y), stored);
-                }
-            }
+        QuarterTable<Hat> coarser = make_hats(size_of(level));
+        const QuarterTable<RoundingWeights> rounding = make_rounding_weights(coarser);
+        const QuarterTable<SharingWeights> sharing =
+            make_sharing_weights(hats, coarser, rounded(coarser, rounding));
+        const PaddedLevel to{size_of(level), texel(level, 0, -1, -1)};
+        weighted_sums<4>({size_of(level - 1), texel(level - 1, 0, -1, -1)}, 2, sharing, to);
         fill_border(level);
-        finer_hats = std::move(hats);
+        for (int pass = 0; pass < kRoundingPasses; ++pass) {
+            std::vector<float> before(to.texels, to.texels + 6 * to.face());
+            weighted_sums<3>({to.n, before.data()}, 1, rounding, to);
+            fill_border(level);
+        }
+        hats = std::move(coarser);
     }
 }
 

@@ -2,14 +2,20 @@
 // A cube map's mip chain for filtered lookups that keep energy and its place.
 //
 // A level's texels are spread by bilinear weights when they are looked up, so a level is made by the
-// transpose of that: the flux of each finer texel is shared among the coarser texels by their weights at its
-// middle, 9 : 3 : 3 : 1, across edges too. That leaves a light's centroid where it is; the mean of four would
-// move it to the middle of the four. A texel then holds its flux over the solid angle H under its bilinear
-// weight, the integral over all places of lookup. What each texel has in its fourth channel is the same of a
-// white environment, W / H, and a lookup is the quotient, so that white stays white. The integral of any
-// level's lookups before the quotient is the picture's flux. After it a lamp of one texel keeps its own
-// within 3 %: at a corner of the cube it loses .5, 1.7 and 2.8 % on levels of 16, 8 and 4 texels a side, in
-// the middle of a face it gains up to 2.2 %.
+// transpose of that: the flux of each finer texel is shared among the four coarser texels around it, about
+// 9 : 3 : 3 : 1, across edges too. That is even on the face and not on the sphere: left so, footprints shrink
+// towards a cube's corners, and centroids move towards the middles of faces. Hence two more rules:
+//
+//   - Texels then exchange flux with their neighbours, more of it away from the middle of a face, until
+//     footprints are as wide and as round on the sphere as they are in the middle. Exchange keeps constants.
+//   - The four get their shares at the place, near the finer texel's middle, from where flux ends up with its
+//     centroid - shares, exchange and the lookup's bilinear weights together - where it was.
+//
+// A texel then holds its flux over the solid angle H under its bilinear weight, the integral over all places
+// of lookup. What each texel has in its fourth channel is the same of a white environment, W / H, and a
+// lookup is the quotient, so that white stays white. The integral of any level's lookups before the quotient
+// is the picture's flux. After it a lamp of one texel keeps its own within 1.5 %, and its centroid within .02
+// of the level's texels, wherever it is. No texel is negative.
 
 #include <cstdint>
 #include <glm/vec3.hpp>

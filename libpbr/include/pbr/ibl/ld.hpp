@@ -43,13 +43,12 @@ struct LdSamples {
 
 /// The first `count` samples for alpha in (0, 1] on a pyramid whose level 0 has `base_size` >= 2 texels a
 /// side. importance_sampling reads level 0, filtered_importance_sampling level log2(K Omega_s / Omega_p) / 2
-/// with Omega_s = 1/(count k), and Omega_p = 4 pi / (6 base_size^2), the mean of level 0's texels. K =
-/// `level_bias` > 0 trades bias (large) for noise (small).
+/// with Omega_s = 1/(count k), and Omega_p = 4 pi / (6 base_size^2), the mean of level 0's texels: a level's
+/// footprints are equally wide everywhere. K = `level_bias` > 0 trades bias (large) for noise (small).
 ///
-/// The texel's own solid angle in place of the mean would follow its size, at most 2.3 times smaller at
-/// corners. But the level would then change from place to place, and with it how much of a lamp is seen
-/// beside where it is: at 32 samples a sun lost up to 8 % of its energy, and its centroid moved. Errors are
-/// the same else.
+/// The centroid of a lamp of one texel is then off by noise, and by bias of up to .04, .02 and .01 of a
+/// level's texels at 16, 32 and 64 samples or more, in a probe of 256 texels a side and six levels; its flux
+/// is within 1 %.
 LdSamples make_ld_samples(LdEstimator estimator, double alpha, int count, int base_size, double level_bias);
 
 /// Texels of a level of `size` by sampling: the unweighted mean over samples (their density is the whole
