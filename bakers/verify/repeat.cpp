@@ -80,7 +80,7 @@ class Rounds {
         return times;
     }
 
-    /// The base before, after, and among the others as often as they have taken some times its own time.
+    /// The base before, after, and among the others as often as they have taken as long as it.
     void measure_group(std::size_t base, std::span<const std::size_t> group) {
         double before = measured_base(base), since = 0;
         std::vector<std::pair<std::size_t, double>> stretch;
@@ -98,7 +98,7 @@ class Rounds {
             measured_[task].seconds.push_back(seconds);
             stretch.emplace_back(task, seconds);
             since += seconds * times_[task];
-            if (since >= std::max(kLongestStretch_s, kBaseShare * before * times_[base])) close();
+            if (since >= std::max(kLongestStretch_s, before * times_[base])) close();
         }
         if (!stretch.empty()) close();
     }
@@ -115,8 +115,9 @@ class Rounds {
                is_known(timing(task), limits_);
     }
 
-    /// A base is measured again after that many seconds, but takes no more than a share of the whole.
-    static constexpr double kLongestStretch_s = .1, kBaseShare = 4;
+    /// A base is measured again after that many seconds, or its own if these are more: what a processor's
+    /// speed is at 20 ms is much the same 20 ms later, and little so a second later.
+    static constexpr double kLongestStretch_s = .02;
 
     std::span<const RepeatTask> tasks_;
     const RepeatLimits& limits_;

@@ -37,10 +37,10 @@ struct RepeatTask {
 };
 
 struct RepeatLimits {
-    double known_to = .05;      ///< share of the median of the ratios: two such studies then agree within .1
-    int fewest = 7, most = 60;  ///< rounds
-    double budget_s = 60;       ///< wall; no round beyond `fewest` starts later
-    double least_s = .02;       ///< a shorter task is measured several times in one go
+    double known_to = .05;       ///< share of the median of the ratios: two such studies then agree within .1
+    int fewest = 7, most = 400;  ///< rounds
+    double budget_s = 60;        ///< wall; no round beyond `fewest` starts later
+    double least_s = .005;       ///< a shorter task is measured several times in one go
 };
 
 struct Timing {

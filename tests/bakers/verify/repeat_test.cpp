@@ -118,7 +118,8 @@ TEST(Repeat, KeepsToItsBudgetButNotBelowTheFewestRounds) {
     const std::vector<RepeatTask> tasks{machine.task(1, .5, 0), machine.task(1, .5, 0)};
     EXPECT_EQ(repeat_until_known(tasks, {.budget_s = 3}, machine.clock())[1].seconds.count, 7);
     machine.now_s = 0;
-    EXPECT_EQ(repeat_until_known(tasks, {.known_to = 0, .budget_s = 1e9}, machine.clock())[1].seconds.count,
+    EXPECT_EQ(repeat_until_known(tasks, {.known_to = 0, .most = 60, .budget_s = 1e9}, machine.clock())[1]
+                  .seconds.count,
               60);
 }
 
@@ -130,7 +131,7 @@ TEST(Repeat, MeasuresShortTasksManyTimesInOneGo) {
                                              return machine.run(asked.size() == 1 ? 1e-2 : 1e-4, 0, times);
                                          },
                                          0}};
-    const auto timings = repeat_until_known(tasks, {}, machine.clock());
+    const auto timings = repeat_until_known(tasks, {.least_s = .02}, machine.clock());
     EXPECT_EQ(asked[1], 2);  // as the first run, which is cold, has it
     EXPECT_EQ(asked[2], 200);
     EXPECT_EQ(asked.back(), 200);
