@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 
 #include "pbr/numerics/elementary.hpp"
 #include "pbr/numerics/sequence.hpp"
@@ -52,10 +51,11 @@ TileSample choose_tiles(std::span<const double> brightness, int count, std::uint
     }
     // At most half of the parts can be certain: the brightest, in order.
     std::vector<std::size_t> order(static_cast<std::size_t>(count) / 2);
-    std::ranges::partial_sort_copy(
-        std::views::iota(std::size_t{0}, parts), order, [&](std::size_t a, std::size_t b) {
-            return brightness[a] > brightness[b] || (brightness[a] == brightness[b] && a < b);
-        });
+    std::vector<std::size_t> all_parts(parts);
+    std::iota(all_parts.begin(), all_parts.end(), std::size_t{0});
+    std::ranges::partial_sort_copy(all_parts, order, [&](std::size_t a, std::size_t b) {
+        return brightness[a] > brightness[b] || (brightness[a] == brightness[b] && a < b);
+    });
     // What is left without the first of them, small ones first: beside a sun the others would be lost.
     std::vector<double> weight(brightness.begin(), brightness.end()), left(order.size() + 1);
     for (const std::size_t i : order) weight[i] = 0;
