@@ -1,8 +1,8 @@
 // Large blocks of memory lie on huge pages, where Linux has some to give. Pictures are written once, and the
 // kernel takes longer to hand out 512 small pages than a baker to fill them: a small bake spent a fifth of
-// its time on that. Sanitizers keep their own allocation functions.
+// its time on that.
 
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifdef __linux__
 
 #include <malloc.h>
 #include <sys/mman.h>

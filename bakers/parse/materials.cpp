@@ -13,15 +13,6 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kExtensions{".mtl", ".gltf", ".glb", ".dae", ".json"};
 
-std::string extension_of(std::string_view file) {
-    const std::size_t dot = file.find_last_of("./\\");
-    if (dot == file.npos || file[dot] != '.') return {};
-    std::string end(file.substr(dot));
-    std::ranges::transform(end, end.begin(),
-                           [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
-    return end;
-}
-
 /// Of JSON, by what it holds.
 MaterialFile parse_json_materials(std::span<const std::byte> bytes, const std::string& file) {
     GltfFile gltf = parse_gltf(bytes, file);
@@ -44,6 +35,15 @@ std::string names_of(const MaterialFile& materials) {
 }
 
 }  // namespace
+
+std::string extension_of(std::string_view file) {
+    const std::size_t dot = file.find_last_of("./\\");
+    if (dot == file.npos || file[dot] != '.') return {};
+    std::string end(file.substr(dot));
+    std::ranges::transform(end, end.begin(),
+                           [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
+    return end;
+}
 
 bool has_material_extension(std::string_view file) {
     return std::ranges::find(kExtensions, extension_of(file)) != kExtensions.end();

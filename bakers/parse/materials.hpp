@@ -76,6 +76,9 @@ struct MaterialFile {
 /// Largest count of materials that a file may hold.
 inline constexpr std::size_t kMostMaterials = 100'000;
 
+/// The end of a file's name from its last dot on, in small letters: ".gltf". Empty for none.
+std::string extension_of(std::string_view file);
+
 /// Whether parse_materials reads files that end so: ".mtl", ".gltf", ".glb", ".dae", ".json", in any case.
 bool has_material_extension(std::string_view file);
 

@@ -243,11 +243,7 @@ class Scene {
 }  // namespace
 
 bool is_scene(const Json& bake) {
-    const std::string source = bake.value("source", "");
-    std::string end =
-        source.substr(source.find_last_of('.') == source.npos ? source.size() : source.find_last_of('.'));
-    for (char& c : end)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string end = parse::extension_of(bake.value("source", ""));
     return (end == ".gltf" || end == ".glb") && bake.value("material", "").empty() &&
            bake.value("format", "") == "gltf";
 }
@@ -259,8 +255,7 @@ std::vector<Read> scene_reads(const Json& bake) {
 std::vector<Read> scene_files(const Inputs& inputs) {
     std::vector<Read> files;
     const Scene scene(inputs);
-    for (const Kept& kept : scene.kept())
-        files.push_back({kept.field, kept.path, "", Read::As::text});
+    for (const Kept& kept : scene.kept()) files.push_back({kept.field, kept.path, "", Read::As::text});
     return files;
 }
 
