@@ -13,6 +13,10 @@ Context::Context(int threads, Accuracy accuracy, ProgressSink progress, const st
 
 Context::~Context() = default;
 
+bool Context::may_store(PixelType pixel) const {
+    return pixels_.empty() || std::ranges::find(pixels_, pixel) != pixels_.end();
+}
+
 void Context::check_cancelled() const {
     if (cancel_ && cancel_->load(std::memory_order_relaxed)) throw Cancelled{};
 }

@@ -9,7 +9,10 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "bakers/image.hpp"
 #include "bakers/workers.hpp"
 
 namespace pbrbake {
@@ -44,6 +47,11 @@ class Context {
     bool certify_fully() const { return certify_fully_; }
     void set_certify_fully(bool fully) { certify_fully_ = fully; }
 
+    /// Whether the product may be stored as `pixel`, should the baker choose: the job states no other, and
+    /// its format holds it. Anything may where nothing was set.
+    bool may_store(PixelType pixel) const;
+    void set_pixels(std::vector<PixelType> pixels) { pixels_ = std::move(pixels); }
+
     /// The name of the product's first file, "X.png", for documents that name it; "" where none is written.
     const std::string& product_file() const { return product_file_; }
     void set_product_file(std::string file) { product_file_ = std::move(file); }
@@ -68,6 +76,7 @@ class Context {
     int threads_;
     Accuracy accuracy_;
     bool certify_fully_ = false;
+    std::vector<PixelType> pixels_;
     std::string product_file_;
     ProgressSink sink_;
     const std::atomic<bool>* cancel_;

@@ -9,22 +9,25 @@
 
 namespace pbrbake {
 
-/// How a channel is stored in a file. In memory every channel is float. rgbe: three 8-bit mantissas that
+/// How a channel is stored in a file. rgbe: three 8-bit mantissas that
 /// share an exponent (Ward 1991, "Real pixels").
 enum class PixelType { half, float32, unorm16, unorm8, rgbe };
 
-/// What the codes of unorm8 stand for. In memory every channel is linear; other pixel types store it so.
+/// What the codes of unorm8 stand for. Floats in memory are linear; other pixel types store them so.
 enum class Transfer {
     linear,
     srgb  ///< IEC 61966-2-1 in the first three channels; a fourth stays linear
 };
 
 /// One mip level: `faces` pictures of height x width texels, channels interleaved, row 0 at the top.
-/// texels.size() == faces * height * width * channels; the face index runs slowest.
+/// numbers() == faces * height * width * channels; the face index runs slowest.
 struct Level {
     int width = 0;
     int height = 0;
     std::vector<float> texels;
+    std::vector<std::uint8_t> codes = {};  ///< in place of texels, of an image that is for unorm8 alone
+
+    std::size_t numbers() const { return codes.empty() ? texels.size() : codes.size(); }
 };
 
 /// A 2D picture (faces == 1), a cube map (faces == 6) or a volume, with one or more mip levels, level 0 the

@@ -63,7 +63,7 @@ Product bake(const DfgParams& asked, const Inputs&, Context& context) {
     if (context.accuracy().as_sampled) {
         const Choice choice = choose(asked, context);
         params = choice.params;
-        product.pixel = choice.pixel;
+        if (context.may_store(choice.pixel)) product.pixel = choice.pixel;
     }
     const int width = params.width(), height = params.height(), depth = params.depth();
     const std::vector<std::string> names = channel_names(params);

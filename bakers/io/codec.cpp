@@ -40,20 +40,24 @@ void check_shape(const Image& image) {
             throw unwritable(which + " is " + std::to_string(level.width) + " x " +
                              std::to_string(level.height) + "; levels halve, rounding down");
         const std::size_t count = static_cast<std::size_t>(image.faces) * level.width * level.height;
-        if (level.texels.size() != count * image.channels.size())
-            throw unwritable(which + " holds " + std::to_string(level.texels.size()) +
-                             " numbers instead of " + std::to_string(count * image.channels.size()));
+        if (level.numbers() != count * image.channels.size())
+            throw unwritable(which + " holds " + std::to_string(level.numbers()) + " numbers instead of " +
+                             std::to_string(count * image.channels.size()));
     }
 }
 
 /// What a format can't hold, said before its codec runs.
-void check_fits(const Format& format, const Image& image) {
+void check_fits(const Format& format, const Image& image, PixelType pixel) {
     const std::string name(format.name);
     if (image.channel_count() > format.max_channels)
         throw unwritable(name + " holds up to " + std::to_string(format.max_channels) +
                          " channels; the image has " + std::to_string(image.channel_count()) + ": use exr");
     if (image.is_volume && !format.is_volume)
         throw unwritable(name + " holds no volumes: use ktx2, dds or h");
+    const bool has_codes =
+        std::ranges::any_of(image.levels, [](const Level& level) { return !level.codes.empty(); });
+    if (has_codes && pixel != PixelType::unorm8)
+        throw unwritable("8-bit codes can't be written with pixel type " + std::string(pixel_name(pixel)));
     if (!format.is_chain && !image.is_volume && (image.faces != 1 || image.levels.size() != 1))
         throw unwritable(name + " holds neither cube maps nor mip levels: use exr, ktx2 or dds");
 }
@@ -92,7 +96,7 @@ std::vector<std::byte> encode(std::string_view format, const Image& image, const
     }
     check_channels(image);
     check_shape(image);
-    check_fits(*container, image);
+    check_fits(*container, image, info.pixel);
     check_info(*container, info);
     if (format == "exr") return encode_exr(image, info);
     if (format == "ktx2") return encode_ktx2(image, info);

@@ -1,5 +1,5 @@
 #pragma once
-// One number of a texel as KTX2 and DDS store it: half, float, unorm16 or unorm8, little-endian.
+// Texels as KTX2 and DDS store them: numbers of half, float, unorm16 or unorm8, little-endian.
 
 #include <half.h>
 
@@ -10,7 +10,7 @@
 
 #include "bakers/image.hpp"
 #include "bakers/io/file_bytes.hpp"
-#include "bakers/io/unorm8.hpp"
+#include "bakers/unorm8.hpp"
 
 namespace pbrbake::io {
 
@@ -36,6 +36,11 @@ inline void store_component(std::byte* out, float value, PixelType pixel, Transf
     const std::uint16_t bits = pixel == PixelType::half ? half(value).bits() : unorm16_of(value);
     std::memcpy(out, &bits, sizeof bits);
 }
+
+/// Writes `count` texels of a level, from texel `first` on: `stored` numbers each, of which those that the
+/// image doesn't have are 1. The first three have the image's transfer.
+void store_texels(const Image& image, const Level& level, std::size_t first, std::size_t count,
+                  std::size_t stored, PixelType pixel, std::byte* out);
 
 inline float load_component(Bytes bytes, std::size_t at, PixelType pixel, Transfer transfer) {
     if (pixel == PixelType::unorm8) return from_unorm8(static_cast<std::uint8_t>(bytes[at]), transfer);

@@ -54,9 +54,8 @@ dds::Header header_of(const Image& image, const dds::Format& format) {
 std::vector<std::byte> encode_dds(const Image& image, const FileInfo& info) {
     const dds::Format format = format_for(image.channel_count(), info.pixel, image.transfer);
     const dds::Header header = header_of(image, format);
-    const std::size_t channels = image.channels.size();
     std::size_t texels = 0;
-    for (const Level& level : image.levels) texels += level.texels.size() / channels;
+    for (const Level& level : image.levels) texels += level.numbers() / image.channels.size();
     std::vector<std::byte> file(sizeof header + texels * format.texel_bytes());
     std::memcpy(file.data(), &header, sizeof header);
     std::byte* out = file.data() + sizeof header;
@@ -65,12 +64,9 @@ std::vector<std::byte> encode_dds(const Image& image, const FileInfo& info) {
     for (int face = 0; face < image.faces; ++face)
         for (const Level& level : image.levels) {
             const std::size_t count = static_cast<std::size_t>(level.width) * level.height;
-            const float* texel = level.texels.data() + static_cast<std::size_t>(face) * count * channels;
-            for (std::size_t i = 0; i < count; ++i, texel += channels)
-                for (std::size_t c = 0; c < static_cast<std::size_t>(format.channels);
-                     ++c, out += format.component_bytes())
-                    store_component(out, c < channels ? texel[c] : 1.f, format.pixel,
-                                    c < 3 ? format.transfer : Transfer::linear);
+            store_texels(image, level, static_cast<std::size_t>(face) * count, count,
+                         static_cast<std::size_t>(format.channels), format.pixel, out);
+            out += count * format.texel_bytes();
         }
     return file;
 }

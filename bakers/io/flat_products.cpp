@@ -104,16 +104,20 @@ std::vector<std::byte> encode_png16(const Image& image) {
 std::vector<std::byte> encode_png8(const Image& image) {
     const Level& level = image.levels.front();
     const std::size_t channels = image.channels.size(), stored = channels == 2 ? 3 : channels;
-    std::vector<std::uint8_t> texels;
-    texels.reserve(level.texels.size() / channels * stored);
-    for (std::size_t i = 0; i < level.texels.size(); i += channels)
+    std::vector<std::uint8_t> made;
+    const bool is_ready = !level.codes.empty() && stored == channels;
+    if (!is_ready) made.reserve(level.numbers() / channels * stored);
+    for (std::size_t i = 0; !is_ready && i < level.numbers(); i += channels)
         for (std::size_t c = 0; c < stored; ++c)
-            texels.push_back(c < channels ? unorm8_of(level.texels[i + c], channel_transfer(image, c))
-                                          : std::uint8_t{0});
+            made.push_back(c >= channels ? std::uint8_t{0}
+                           : !level.codes.empty()
+                               ? level.codes[i + c]
+                               : unorm8_of(level.texels[i + c], channel_transfer(image, c)));
+    const std::uint8_t* codes = is_ready ? level.codes.data() : made.data();
     std::vector<std::byte> file;
     std::string error;
     if (!oiio_module().write_png8(level.width, level.height, static_cast<int>(stored),
-                                  image.transfer == Transfer::srgb, texels.data(), file, error))
+                                  image.transfer == Transfer::srgb, codes, file, error))
         throw unwritable("PNG: " + error);
     return file;
 }

@@ -75,7 +75,7 @@ const std::vector<std::string>& output_formats();
 /// two, the largest 2^-k, k >= 0, with which the peak of all images fits; returns it. Half and float keep
 /// signs; the unorm types end at 1 and clip negatives to 0, as rgbe does, which
 /// carries what rounding takes to the next texel, so that means are kept (a texel is off by less than .8 %).
-/// NaN and Inf stay in half and float; the caller has a bug then.
+/// NaN and Inf stay in half and float; the caller has a bug then. Codes stay as they are.
 double quantise(std::vector<Image>& images, PixelType pixel);
 
 /// A product read back: our own EXR, KTX2 and DDS files (all faces and levels), PNG, HDR, and plain 2D EXR.

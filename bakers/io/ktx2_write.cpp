@@ -95,18 +95,12 @@ std::vector<std::byte> key_value_data(const Image& image, const FileInfo& info) 
 }
 
 /// One level's texels: faces, rows, tightly packed; missing channels become 1 (alpha).
-void put_level(const Level& level, std::size_t channels, const ktx2::Format& format,
+void put_level(const Image& image, const Level& level, const ktx2::Format& format,
                std::vector<std::byte>& file) {
-    const auto stored = static_cast<std::size_t>(format.channels);
-    const std::size_t count = level.texels.size() / channels, bytes = format.component_bytes();
-    const std::size_t begin = file.size();
-    file.resize(begin + count * stored * bytes);
-    std::byte* out = file.data() + begin;
-    const float* texel = level.texels.data();
-    for (std::size_t i = 0; i < count; ++i, texel += channels)
-        for (std::size_t c = 0; c < stored; ++c, out += bytes)
-            store_component(out, c < channels ? texel[c] : 1.f, format.pixel,
-                            c < 3 ? format.transfer : Transfer::linear);
+    const std::size_t count = level.numbers() / image.channels.size(), begin = file.size();
+    file.resize(begin + count * format.texel_bytes());
+    store_texels(image, level, 0, count, static_cast<std::size_t>(format.channels), format.pixel,
+                 file.data() + begin);
 }
 
 }  // namespace
@@ -144,7 +138,7 @@ std::vector<std::byte> encode_ktx2(const Image& image, const FileInfo& info) {
         out.align(format->alignment());
         ktx2::LevelEntry entry{};
         entry.offset = out.size();
-        put_level(image.levels[l], image.channels.size(), *format, out.bytes());
+        put_level(image, image.levels[l], *format, out.bytes());
         entry.size = entry.uncompressed_size = out.size() - entry.offset;
         std::memcpy(out.bytes().data() + sizeof(ktx2::Header) + l * sizeof entry, &entry, sizeof entry);
     }

@@ -9,7 +9,7 @@
 
 #include "bakers/io/io.hpp"
 #include "bakers/io/rgbe.hpp"
-#include "bakers/io/unorm8.hpp"
+#include "bakers/unorm8.hpp"
 
 namespace pbrbake::io {
 namespace {

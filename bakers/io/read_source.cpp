@@ -10,7 +10,7 @@
 #include "bakers/io/foreign_claims.hpp"
 #include "bakers/io/io.hpp"
 #include "bakers/io/repair.hpp"
-#include "bakers/io/unorm8.hpp"
+#include "bakers/unorm8.hpp"
 
 namespace pbrbake::io {
 namespace {

@@ -38,12 +38,9 @@ PixelType pixel_of(const Product& product, const job::Bake& bake) {
 
 /// What a bake's own stage makes, its values as they will be stored.
 Product baked(const job::Bake& bake, const Inputs& inputs, Context& context) {
+    context.set_product_file(bake.file);
+    context.set_pixels(bake.pixel_stated ? std::vector{bake.pixel} : picture_format(bake.format).pixels);
     Product product = bake.baker->run(bake.json, inputs, context);
-    // A baker's own choice gives way to a pixel type that the job states, and to what its format holds.
-    const Format& format = picture_format(bake.format);
-    if (product.pixel &&
-        (bake.pixel_stated || std::ranges::find(format.pixels, *product.pixel) == format.pixels.end()))
-        product.pixel.reset();
     product.scale = io::quantise(product.images, pixel_of(product, bake));
     return product;
 }
@@ -110,10 +107,7 @@ class BakeRun {
             sink = [observer = options_.observer, stage](double fraction) {
                 observer->progress(stage, fraction);
             };
-        auto context =
-            std::make_unique<Context>(options_.threads, bake_.accuracy, std::move(sink), options_.cancel);
-        context->set_product_file(bake_.file);
-        return context;
+        return std::make_unique<Context>(options_.threads, bake_.accuracy, std::move(sink), options_.cancel);
     }
 
     void decode() {
@@ -226,7 +220,7 @@ class BakeRun {
             std::vector<std::byte> bytes = io::encode(picture_format(bake_.format).name, image, info);
             outputs_.push_back({file, io::hash_bytes(bytes.data(), bytes.size()), bytes.size()});
             files_.push_back(std::move(bytes));
-            for (Level& level : image.levels) level.texels = {};
+            image.levels.clear();
         }
         // Pictures come before documents, and of these the main file first.
         std::stable_partition(product_.documents.begin(), product_.documents.end(),

@@ -62,8 +62,11 @@ void warn(const Sources& sources, const Survey& survey, const Findings& found, P
             "surface or calibrate none if it is f0 already");
 }
 
-/// A set on its way to images. The largest level is never in memory but as stored: it is converted by strips,
-/// each of which leaves its rows of the next level.
+/// Levels that a strip of rows makes below its own before it is let go.
+constexpr int kStripLevels = 2;
+
+/// A set on its way to images. The largest levels are never in memory but as stored: they are made by strips,
+/// each of which leaves its rows of a level further down.
 class SetBake {
   public:
     SetBake(const Sources& sources, Context& context)
@@ -74,23 +77,24 @@ class SetBake {
           survey_(survey(sources, context)),
           findings_(static_cast<std::size_t>(sources.height())),
           largest_f0_(static_cast<std::size_t>(sources.height())),
-          store_(params_, layout_) {
-        store_.add_level(sources.width(), sources.height());
+          is_coded_(context.may_store(PixelType::unorm8) && has_pictures(params_)),
+          store_(params_, layout_, sources.width(), sources.height(), is_coded_) {
+        fine_.resize(static_cast<std::size_t>(sources.width()));
+        fine_.fill(Colour(1e-6f));
     }
 
     Product run() {
-        convert_largest();
-        while (level_count_ != params_.levels && !is_smallest()) {
+        const int by_strips = std::min(kStripLevels, store_.levels() - 1);
+        MapLevel level = make_strips(by_strips);
+        for (int l = by_strips + 1; l < store_.levels(); ++l) {
             context_.check_cancelled();
-            add_level();
-            if (std::max(next_.width, next_.height) > 1) next_ = next_level(next_, context_);
+            level = make_below(level, l);
         }
         const float unit = layout_.has_residual ? specular_unit() : 1;
         if (layout_.has_residual) store_.divide_residual(unit);
-        if (params_.dither) store_.dither();
         Product product;
         product.images = store_.take();
-        product.pixel = PixelType::unorm8;
+        if (context_.may_store(PixelType::unorm8)) product.pixel = PixelType::unorm8;
         Findings total;
         for (const Findings& row : findings_) total += row;
         const double texels = static_cast<double>(sources_.width()) * sources_.height();
@@ -119,73 +123,127 @@ class SetBake {
         product.documents.push_back({"material.json", std::move(material), ""});
     }
 
-    bool is_smallest() const {
-        const Level& level = store_.newest_level();
-        return std::max(level.width, level.height) == 1;
+    /// The rows that a strip has of a level: those before `own_end` are stored, and those beyond, which are
+    /// another strip's, are for levels of odd height below.
+    struct Band {
+        int begin, own_end, end;
+    };
+    using Bands = std::array<Band, kStripLevels + 1>;
+
+    /// A strip's rows of levels 0 to `deepest`, of which it has `own`.
+    Bands bands_of(RowRange own, int deepest) const {
+        Bands bands{};
+        bands[static_cast<std::size_t>(deepest)] = {own.begin, own.end, own.end};
+        for (int l = deepest - 1; l >= 0; --l) {
+            const Band& next = bands[static_cast<std::size_t>(l) + 1];
+            const int height = side_below(sources_.height(), l);
+            const RowRange rows = rows_under({next.begin, next.own_end}, height);
+            bands[static_cast<std::size_t>(l)] = {rows.begin, rows.end,
+                                                  std::max(rows.end, reach_under(next.end - 1, height))};
+        }
+        return bands;
     }
 
-    /// Strips of about 2^17 texels; each strip's rows are those under some rows of the next level, so that it
-    /// can fill these.
-    void convert_largest() {
-        const int width = sources_.width(), height = sources_.height();
-        const bool has_next = params_.levels != 1 && std::max(width, height) > 1;
-        if (has_next) {
-            MapLevel maps;
-            maps.width = width;
-            if (sources_.has_normal()) maps.normal.resize(1);
-            if (sources_.has_occlusion()) maps.occlusion.resize(1);
-            if (sources_.has_opacity()) maps.opacity.resize(1);
-            if (sources_.has_emissive()) maps.emissive.resize(1);
-            next_ = level_below(maps, height);
-        } else {
-            next_.height = std::max(1, height / 2);
-        }
-        const int step = std::clamp((1 << 16) / width, 1, 32), most_rows = 2 * step + 2;
-        const std::int64_t strips = (next_.height + step - 1) / step;
+    /// Makes levels 0 to `deepest`, some rows at a time; returns the last where there are several.
+    MapLevel make_strips(int deepest) {
+        const int width = sources_.width(), height = sources_.height(),
+                  deepest_height = side_below(height, deepest);
+        // Strips of about 2^16 texels, with room for rows of others.
+        const int step = std::max(1, std::clamp((1 << 16) / width, 2, 64) >> deepest);
+        const int most_rows = (step + 2) << deepest;
+        MapLevel last = level_below(maps_of_set(), deepest, deepest > 0 ? deepest_height : 0);
+        const std::int64_t strips = (deepest_height + step - 1) / step;
         const std::int64_t grain = std::max<std::int64_t>(1, strips / (4 * context_.threads()));
         context_.parallel_for(strips, grain, [&](std::int64_t begin, std::int64_t end) {
             Converter converter(sources_, survey_, most_rows);
+            MapLevel between = level_below(maps_of_set(), 1, deepest > 1 ? most_rows / 2 : 0);
             for (std::int64_t strip = begin; strip < end; ++strip) {
-                const auto first = static_cast<int>(strip) * step,
-                           last = std::min(first + step, next_.height);
-                const int top = first_row_under(first, height, next_),
-                          bottom = first_row_under(last, height, next_),
-                          reach = last_row_under(last - 1, height, next_) + 1;
-                const Rows& rows = converter.convert(top, bottom, std::max(bottom, reach), findings_);
-                for (int y = top; y < bottom; ++y) store_row(rows, y);
-                for (int y = first; has_next && y < last; ++y) fill_row(rows.level, top, height, y, next_);
+                const auto first = static_cast<int>(strip) * step;
+                const Bands bands = bands_of({first, std::min(first + step, deepest_height)}, deepest);
+                make_strip(converter, bands, between, deepest, last);
             }
         });
         context_.count("texels", static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height));
+        return last;
     }
 
-    void store_row(const Rows& rows, int y) {
-        const auto width = static_cast<std::size_t>(rows.level.width);
-        Texels texels{rows.level, static_cast<std::size_t>(y - rows.first) * width, width, {}, {}};
+    void make_strip(Converter& converter, const Bands& bands, MapLevel& between, int deepest,
+                    MapLevel& last) {
+        const Rows& rows = converter.convert(bands[0].begin, bands[0].own_end, bands[0].end, findings_);
+        for (int y = bands[0].begin; y < bands[0].own_end; ++y) store_largest(rows, y);
+        const MapLevel* above = &rows.level;
+        for (int l = 1; l <= deepest; ++l) {
+            const Band& band = bands[static_cast<std::size_t>(l)];
+            MapLevel& level = l == deepest ? last : between;
+            if (l < deepest) {
+                level.first = band.begin;
+                level.rows = band.end - band.begin;
+            }
+            for (int y = band.begin; y < band.end; ++y) fill_row(*above, y, level);
+            for (int y = band.begin; y < band.own_end; ++y) store_row(level, y, l);
+            above = &level;
+        }
+    }
+
+    /// Makes a level from the whole one above.
+    MapLevel make_below(const MapLevel& above, int l) {
+        MapLevel level = level_below(above, 1, side_below(above.height));
+        context_.parallel_for(level.height, 16, [&](std::int64_t begin, std::int64_t end) {
+            for (auto y = static_cast<int>(begin); y < end; ++y) {
+                fill_row(above, y, level);
+                store_row(level, y, l);
+            }
+        });
+        return level;
+    }
+
+    /// The largest level without rows: which maps the set has.
+    MapLevel maps_of_set() const {
+        MapLevel maps;
+        maps.width = sources_.width();
+        maps.height = sources_.height();
+        if (sources_.has_normal()) maps.normal.resize(1);
+        if (sources_.has_occlusion()) maps.occlusion.resize(1);
+        if (sources_.has_opacity()) maps.opacity.resize(1);
+        if (sources_.has_emissive()) maps.emissive.resize(1);
+        return maps;
+    }
+
+    void store_largest(const Rows& rows, int y) {
+        const MapLevel& level = rows.level;
+        const auto width = static_cast<std::size_t>(level.width);
+        Texels texels{level, level.at(y), width, {}, {}};
         make_materials(params_, layout_, rows.tolerance.from(texels.begin), texels);
         float& largest = largest_f0_[static_cast<std::size_t>(y)];
         for (std::size_t x = 0; x < width; ++x)
-            if (rows.level.metallic[texels.begin + x] < .99f)
+            if (level.metallic[texels.begin + x] < .99f)
                 largest = std::max(largest, pbr::max_channel(texels.dielectric_f0[x]));
         const std::size_t to = static_cast<std::size_t>(y) * width;
-        store(texels, to);
+        store(texels, 0, to);
         std::vector<float> values(width);
         const pbr::Scattering scattering = scattering_of(params_);
         for (std::size_t i = 0; i < params_.maps.size(); ++i) {
             for (std::size_t x = 0; x < width; ++x)
                 values[x] = map_value(params_.maps[i], layout_, rows, texels.begin + x, texels.material(x),
                                       scattering);
-            store_.put(layout_.images.size() + i, 0, to, values);
+            store_.put(layout_.images.size() + i, 0, 0, to, values);
         }
     }
 
-    /// Into all of the layout's channels, from texel `to` of the newest level on.
-    void store(const Texels& texels, std::size_t to) {
+    void store_row(const MapLevel& level, int y, int l) {
+        const auto width = static_cast<std::size_t>(level.width);
+        Texels texels{level, level.at(y), width, {}, {}};
+        make_materials(params_, layout_, std::as_const(fine_).from(0), texels);
+        store(texels, static_cast<std::size_t>(l), static_cast<std::size_t>(y) * width);
+    }
+
+    /// Into all of the layout's channels, from texel `to` of a level on.
+    void store(const Texels& texels, std::size_t l, std::size_t to) {
         std::vector<float> values(texels.count);
         for (std::size_t i = 0; i < layout_.images.size(); ++i)
             for (std::size_t c = 0; c < layout_.images[i].channels.size(); ++c) {
                 pack(layout_.images[i].channels[c], texels, values.data());
-                store_.put(i, c, to, values);
+                store_.put(i, c, l, to, values);
             }
     }
 
@@ -198,23 +256,6 @@ class SetBake {
             std::max(static_cast<float>(params_.dielectric_f0), *std::ranges::max_element(largest_f0_)));
     }
 
-    void add_level() {
-        store_.add_level(next_.width, next_.height);
-        ++level_count_;
-        const auto width = static_cast<std::size_t>(next_.width);
-        Planes tolerance;
-        tolerance.resize(width);
-        tolerance.fill(Colour(1e-6f));
-        context_.parallel_for(next_.height, 16, [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t y = begin; y < end; ++y) {
-                const std::size_t first = static_cast<std::size_t>(y) * width;
-                Texels texels{next_, first, width, {}, {}};
-                make_materials(params_, layout_, std::as_const(tolerance).from(0), texels);
-                store(texels, first);
-            }
-        });
-    }
-
     const Sources& sources_;
     const TextureParams& params_;
     Context& context_;
@@ -222,9 +263,9 @@ class SetBake {
     Survey survey_;
     std::vector<Findings> findings_;  ///< sums of each row
     std::vector<float> largest_f0_;   ///< of each row's dielectrics
+    bool is_coded_;                   ///< factors alone may end up in a document, as they are
     Store store_;
-    int level_count_ = 1;
-    MapLevel next_;
+    Planes fine_;  ///< the tolerance of a row of means
 };
 
 /// Which maps a model has.

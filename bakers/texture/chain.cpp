@@ -60,10 +60,11 @@ struct Sums {
 
 }  // namespace
 
-MapLevel level_below(const MapLevel& level, int height) {
+MapLevel level_below(const MapLevel& level, int levels, int rows) {
     MapLevel next;
-    next.width = std::max(1, level.width / 2);
-    next.height = std::max(1, height / 2);
+    next.width = side_below(level.width, levels);
+    next.height = side_below(level.height, levels);
+    next.rows = rows;
     next.diffuse.resize(next.texels());
     next.f0.resize(next.texels());
     next.metallic.resize(next.texels());
@@ -75,35 +76,31 @@ MapLevel level_below(const MapLevel& level, int height) {
     return next;
 }
 
-int first_row_under(int row, int height, const MapLevel& next) {
-    return row >= next.height ? height : cover(row, next.height, height).first;
+RowRange rows_under(RowRange next, int height) {
+    const int next_height = side_below(height);
+    const auto first = [&](int row) {
+        return row >= next_height ? height : cover(row, next_height, height).first;
+    };
+    return {first(next.begin), first(next.end)};
 }
 
-int last_row_under(int row, int height, const MapLevel& next) {
-    const Cover rows = cover(row, next.height, height);
-    return rows.first + rows.count - 1;
+int reach_under(int row, int height) {
+    const Cover rows = cover(row, side_below(height), height);
+    return rows.first + rows.count;
 }
 
-void fill_row(const MapLevel& level, int first, int height, int y, MapLevel& next) {
-    const Cover rows = cover(y, next.height, height);
+void fill_row(const MapLevel& level, int y, MapLevel& next) {
+    const Cover rows = cover(y, next.height, level.height);
     for (int x = 0; x < next.width; ++x) {
         const Cover columns = cover(x, next.width, level.width);
         Sums sums;
         for (int j = 0; j < rows.count; ++j)
             for (int i = 0; i < columns.count; ++i)
                 sums.add(
-                    level, static_cast<std::size_t>(rows.first - first + j) * level.width + columns.first + i,
+                    level, level.at(rows.first + j) + static_cast<std::size_t>(columns.first + i),
                     rows.share[static_cast<std::size_t>(j)] * columns.share[static_cast<std::size_t>(i)]);
-        sums.store(next, static_cast<std::size_t>(y) * next.width + x);
+        sums.store(next, next.at(y) + static_cast<std::size_t>(x));
     }
-}
-
-MapLevel next_level(const MapLevel& level, Context& context) {
-    MapLevel next = level_below(level, level.height);
-    context.parallel_for(next.height, 16, [&](std::int64_t begin, std::int64_t end) {
-        for (auto y = static_cast<int>(begin); y < end; ++y) fill_row(level, 0, level.height, y, next);
-    });
-    return next;
 }
 
 }  // namespace pbrbake::texture

@@ -5,20 +5,25 @@
 
 namespace pbrbake::texture {
 
-/// The next smaller level: sides halve, rounding down, and every texel is the mean over the area it covers,
-/// of what is reflected (diffuse albedo, f0), metallic, occlusion and opacity. Normals and perceptual
-/// roughness go together by moments of slope (pbr/legacy/normal_variance.hpp).
-MapLevel next_level(const MapLevel& level, Context& context);
+/// A side some levels further down: halves, rounding down.
+inline int side_below(int side, int levels = 1) { return std::max(1, side >> levels); }
 
-/// The same a row at a time, from some rows of the larger level. An empty level below one of that height,
-/// with the maps that `level` has:
-MapLevel level_below(const MapLevel& level, int height);
+/// The level so many further down, with the maps that `level` has, and room for `rows` rows.
+MapLevel level_below(const MapLevel& level, int levels, int rows);
 
-/// The rows of a level of that height that a row of the next covers. Of next.height, the first is `height`.
-int first_row_under(int row, int height, const MapLevel& next);
-int last_row_under(int row, int height, const MapLevel& next);
+/// The rows of a level of `height` rows that some rows of the next cover, from the first that row `begin`
+/// covers to before the first that row `end` covers.
+struct RowRange {
+    int begin = 0, end = 0;
+};
+RowRange rows_under(RowRange next, int height);
+/// The end of the rows that a texel of row `row` of the next level takes part of: of odd heights, rows are
+/// shared.
+int reach_under(int row, int height);
 
-/// Fills row y of `next` from `level`, which holds the rows it covers and starts at row `first` of `height`.
-void fill_row(const MapLevel& level, int first, int height, int y, MapLevel& next);
+/// Fills row y of `next` from the larger level, which holds the rows it covers. Every texel is the mean over
+/// the area it covers of what is reflected (diffuse albedo, f0), metallic, occlusion and opacity. Normals and
+/// perceptual roughness go together by moments of slope (pbr/legacy/normal_variance.hpp).
+void fill_row(const MapLevel& level, int y, MapLevel& next);
 
 }  // namespace pbrbake::texture

@@ -35,7 +35,8 @@ Converter::Converter(const Sources& sources, const Survey& survey, int most_rows
       confidence_(line_.texels()) {
     MapLevel& level = rows_.level;
     level.width = sources.width();
-    level.height = most_rows;
+    level.height = sources.height();
+    level.rows = most_rows;
     const std::size_t texels = level.texels();
     level.diffuse.resize(texels);
     level.f0.resize(texels);
@@ -53,8 +54,8 @@ Converter::Converter(const Sources& sources, const Survey& survey, int most_rows
 
 const Rows& Converter::convert(int begin, int own_end, int end, std::vector<Findings>& findings) {
     MapLevel& level = rows_.level;
-    rows_.first = begin;
-    level.height = end - begin;
+    level.first = begin;
+    level.rows = end - begin;
     const int reach = estimate_.regularises() ? kMetalReach : 0;
     for (int y = begin - reach; y < end + reach; ++y) {
         const bool is_own = y >= begin && y < end;
@@ -62,7 +63,7 @@ const Rows& Converter::convert(int begin, int own_end, int end, std::vector<Find
         read(y, y - begin + kMetalReach, is_own, found);
     }
     for (int y = begin; y < end; ++y) {
-        float* metallic = level.metallic.data() + static_cast<std::size_t>(y - begin) * level.width;
+        float* metallic = level.metallic.data() + level.at(y);
         if (reach > 0) metal_.regularise(y - begin + kMetalReach, metallic);
         if (y >= own_end) continue;
         Findings& found = findings[static_cast<std::size_t>(y)];
@@ -101,7 +102,7 @@ void Converter::calibrate() {
 
 void Converter::read_own(int y) {
     MapLevel& level = rows_.level;
-    const std::size_t to = static_cast<std::size_t>(y - rows_.first) * level.width, count = line_.texels();
+    const std::size_t to = level.at(y), count = line_.texels();
     const auto copy = [&](const std::vector<float>& from, std::vector<float>& map) {
         std::ranges::copy(from, map.begin() + static_cast<std::ptrdiff_t>(to));
     };

@@ -20,8 +20,7 @@ Survey survey(const Sources& sources, Context& context);
 
 /// Rows of the largest level, calibrated, with their metal mask.
 struct Rows {
-    MapLevel level;  ///< `height` rows, from `first` on
-    int first = 0;
+    MapLevel level;
     std::vector<float> confidence;
     /// What each texel's diffuse may be moved by: half its file's interval.
     Planes tolerance;

@@ -64,15 +64,18 @@ struct LegacyRow {
     std::vector<std::uint8_t> f0_clamped;
 };
 
-/// The texels of one level of a converted set, or of some of its rows.
+/// Rows of one level of a converted set: `rows` of them from row `first` on, perhaps all.
 struct MapLevel {
-    int width = 0, height = 0;
+    int width = 0, height = 0;  ///< of the level
+    int first = 0, rows = 0;
     Planes diffuse, f0;
     std::vector<float> metallic, perceptual_roughness;
     Planes normal;                          ///< y up; empty without a normal map
     Planes emissive;                        ///< empty without a map
     std::vector<float> occlusion, opacity;  ///< empty without a map
-    std::size_t texels() const { return static_cast<std::size_t>(width) * height; }
+    /// Where row y begins, a row that is held.
+    std::size_t at(int y) const { return static_cast<std::size_t>(y - first) * width; }
+    std::size_t texels() const { return static_cast<std::size_t>(rows) * width; }
 };
 
 /// Shares of texels and means over a set, for the record.

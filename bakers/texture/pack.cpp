@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/unorm8.hpp"
 #include "pbr/brdf/fresnel.hpp"
 
 namespace pbrbake::texture {
@@ -243,9 +244,16 @@ Unpacked unpack(const TextureParams& params, const Layout& layout, const std::ve
                 int y, float specular_unit, double scale) {
     Decoded found{{Colour(0), 0, Colour(static_cast<float>(params.dielectric_f0))}};
     for (std::size_t i = 0; i < layout.images.size(); ++i) {
-        const float* texel = images[i].texel(0, 0, y, x);
-        for (std::size_t c = 0; c < layout.images[i].channels.size(); ++c)
-            decode(layout.images[i].channels[c], static_cast<float>(texel[c] / scale), specular_unit, found);
+        const Image& image = images[i];
+        const Level& level = image.levels.front();
+        const std::size_t channels = image.channels.size(),
+                          at = (static_cast<std::size_t>(y) * level.width + x) * channels;
+        for (std::size_t c = 0; c < channels; ++c) {
+            const float stored = level.codes.empty()
+                                     ? static_cast<float>(level.texels[at + c] / scale)
+                                     : from_unorm8(level.codes[at + c], channel_transfer(image, c));
+            decode(layout.images[i].channels[c], stored, specular_unit, found);
+        }
     }
     const pbr::Reflected<float> reflected =
         layout.is_specular_gloss ? pbr::reflected_from_specular(found.specular_gloss.diffuse,

@@ -7,31 +7,35 @@
 
 namespace pbrbake::texture {
 
-/// Holds the images of a layout, and grey ones besides.
+/// Holds the images of a layout with all their levels, and grey ones of the largest level besides: as 8-bit
+/// codes, or as floats.
 class Store {
   public:
-    Store(const TextureParams& params, const Layout& layout);
+    Store(const TextureParams& params, const Layout& layout, int width, int height, bool is_coded);
 
-    /// Adds a level to the layout's images; the largest, which comes first, to grey ones too.
-    void add_level(int width, int height);
-    /// Texels from `to` on of one channel, in the newest level. Texels of different rows may be put at a
-    /// time.
-    void put(std::size_t image, std::size_t channel, std::size_t to, std::span<const float> values);
+    int levels() const { return static_cast<int>(images_.front().levels.size()); }
+    /// Texels from `to` on of one channel of an image's level; each is put once. Others may be put at the
+    /// same time.
+    void put(std::size_t image, std::size_t channel, std::size_t level, std::size_t to,
+             std::span<const float> values);
     /// A unit for dielectric f0, the residual: at least `largest`, and up to a twentieth more where the f0
     /// that most texels have is an 8-bit code exactly then. What many texels share would else be off by the
     /// same part of a code in all of them.
     float residual_unit(float largest) const;
     /// Divides the residual by the set's unit, which is known last; ends at 1.
     void divide_residual(float unit);
-    /// Adds what triangular noise of one code's width takes from banding, where codes are 8 bits.
-    void dither();
-    const Level& newest_level() const { return images_.front().levels.back(); }
     std::vector<Image> take() { return std::move(images_); }
 
   private:
+    std::uint8_t code_of(std::size_t image, std::size_t number, float value) const;
+
     const TextureParams& params_;
+    bool is_coded_;
     std::vector<Image> images_;
-    std::size_t residual_ = 0;  ///< which image that is, where there is one
+    std::size_t residual_;  ///< which image that is; where there is none, none
+    /// Of a residual that will be codes, each level until its unit is known: square roots, 65535 is 1. An
+    /// sRGB code is some hundred of these wide.
+    std::vector<std::vector<std::uint16_t>> roots_;
 };
 
 }  // namespace pbrbake::texture

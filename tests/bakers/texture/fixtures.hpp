@@ -8,6 +8,7 @@
 
 #include "bakers/io/io.hpp"
 #include "bakers/texture/texture.hpp"
+#include "bakers/unorm8.hpp"
 #include "pbr/numerics/vector.hpp"
 
 namespace pbrbake::texture::test {
@@ -110,12 +111,23 @@ struct Baked {
     }
 };
 
+/// Codes as the floats they stand for, so that tests read products of any pixel type alike.
+inline void decode(std::vector<Image>& images) {
+    for (Image& image : images)
+        for (Level& level : image.levels)
+            for (std::size_t i = 0; i < level.codes.size(); ++i)
+                level.texels.push_back(
+                    from_unorm8(level.codes[i], channel_transfer(image, i % image.channels.size())));
+}
+
 inline Baked bake_set(const TextureParams& params, const Inputs& inputs, PixelType pixel, int threads = 1) {
     Context context(threads, {});
     context.set_certify_fully(true);
+    context.set_pixels({pixel});
     Baked baked{bake(params, inputs, context), {}};
     baked.product.scale = io::quantise(baked.product.images, pixel);
     baked.certificate = certify(params, inputs, baked.product, context);
+    decode(baked.product.images);
     return baked;
 }
 

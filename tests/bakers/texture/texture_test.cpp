@@ -431,6 +431,61 @@ TEST(Texture, StripsDoNotShow) {
     }
 }
 
+/// Rows of odd levels are shared between strips; each level is the box filter of the one above.
+TEST(Texture, LevelsOfManyStripsAreMeansOfTheOneAbove) {
+    TextureParams params = defaults();
+    params.levels = 0;
+    constexpr int kHeight = 303;
+    const auto value = [](int y) { return .5f + .4f * std::sin(static_cast<float>(y * y)); };
+    Inputs inputs;
+    inputs["diffuse"] = source(2, kHeight, 3, 0, [&](int, int y) {
+        return Rgba{value(y), .5f, value(y), 1};
+    });
+    inputs["specular"] = source(2, kHeight, 4, 0, [](int, int) { return Rgba{.04f, .04f, .04f, .5f}; });
+    const Baked baked = bake_set(params, inputs, PixelType::float32, 2);
+    const Image& base = baked.image("base_color");
+    for (std::size_t l = 1; l < base.levels.size(); ++l) {
+        const int above = base.levels[l - 1].height, height = base.levels[l].height;
+        for (int y = 0; y < height; ++y) {
+            double sum = 0;
+            for (int row = 0; row < above; ++row) {
+                const double begin = std::max<double>(row, static_cast<double>(y) * above / height),
+                             end = std::min<double>(row + 1, static_cast<double>(y + 1) * above / height);
+                if (end > begin)
+                    sum += (end - begin) *
+                           static_cast<double>(base.texel(static_cast<int>(l) - 1, 0, row, 0)[0]);
+            }
+            ASSERT_NEAR(base.texel(static_cast<int>(l), 0, y, 0)[0], sum * height / above, 1e-5)
+                << l << " " << y;
+        }
+    }
+}
+
+TEST(Texture, CodesAreThoseOfTheFloatsThatTheyStandFor) {
+    for (const Packing packing : {Packing::gltf, Packing::frostbite, Packing::specular_gloss}) {
+        TextureParams params = defaults();
+        params.levels = 0;
+        params.packing = packing;
+        params.maps = {ExtraMap::confidence};
+        const Inputs inputs = specular_gloss_set(61, 16);
+        const Baked coded = bake_set(params, inputs, PixelType::unorm8),
+                    floats = bake_set(params, inputs, PixelType::float32);
+        ASSERT_EQ(coded.product.images.size(), floats.product.images.size());
+        for (std::size_t i = 0; i < coded.product.images.size(); ++i) {
+            const Image& image = floats.product.images[i];
+            // A residual is held as a 16-bit root before, and may round to the next code.
+            const int nearest = image.name == "specular" ? 1 : 0;
+            for (std::size_t l = 0; l < image.levels.size(); ++l)
+                for (std::size_t k = 0; k < image.levels[l].texels.size(); ++k)
+                    ASSERT_NEAR(coded.product.images[i].levels[l].codes[k],
+                                unorm8_of(image.levels[l].texels[k],
+                                          channel_transfer(image, k % image.channels.size())),
+                                nearest)
+                        << image.name << " " << l << " " << k;
+        }
+    }
+}
+
 TEST(Texture, MistakesAreNamed) {
     TextureParams params = defaults();
     params.diffuse = params.specular = "";

@@ -7,7 +7,7 @@
 
 #include "bakers/image.hpp"
 
-namespace pbrbake::io {
+namespace pbrbake {
 
 /// Values of the codes, and where sRGB codes end. Rounded to float, they don't depend on the C library's pow.
 class Unorm8Table {
@@ -59,4 +59,4 @@ inline Transfer channel_transfer(const Image& image, std::size_t index) {
     return index < 3 ? image.transfer : Transfer::linear;
 }
 
-}  // namespace pbrbake::io
+}  // namespace pbrbake

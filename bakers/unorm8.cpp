@@ -1,9 +1,9 @@
-#include "bakers/io/unorm8.hpp"
+#include "bakers/unorm8.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace pbrbake::io {
+namespace pbrbake {
 namespace {
 
 /// IEC 61966-2-1.
@@ -28,4 +28,4 @@ Unorm8Table::Unorm8Table() {
 
 const Unorm8Table kUnorm8;
 
-}  // namespace pbrbake::io
+}  // namespace pbrbake
