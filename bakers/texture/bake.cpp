@@ -91,7 +91,11 @@ class SetBake {
             level = make_below(level, l);
         }
         const float unit = layout_.has_residual ? specular_unit() : 1;
-        if (layout_.has_residual) store_.divide_residual(unit);
+        if (layout_.has_residual) {
+            const bool holds_more =
+                context_.may_store(PixelType::half) || context_.may_store(PixelType::float32);
+            store_.divide_residual(unit, is_coded_ || !holds_more);
+        }
         Product product;
         product.images = store_.take();
         if (context_.may_store(PixelType::unorm8)) product.pixel = PixelType::unorm8;

@@ -30,20 +30,27 @@ Cover cover(int index, int small, int large) {
     return result;
 }
 
+/// How much is seen of a texel: its opacity, and of transparent texels among their like all the same.
+float visibility(const MapLevel& level, std::size_t i) {
+    constexpr float kLeast = 1e-6f;
+    return level.opacity.empty() ? 1 : std::max(kLeast, level.opacity[i]);
+}
+
 struct Sums {
     Colour diffuse{0}, f0{0}, emissive{0};
     float metallic = 0, occlusion = 0, opacity = 0;
     pbr::SlopeMoments<float> slopes;
 
-    void add(const MapLevel& level, std::size_t i, float share) {
-        diffuse += share * level.diffuse[i];
-        f0 += share * level.f0[i];
-        metallic += share * level.metallic[i];
-        if (!level.occlusion.empty()) occlusion += share * level.occlusion[i];
+    /// A texel covers `share` of the new one, and has a part of `weight` in what is seen of that.
+    void add(const MapLevel& level, std::size_t i, float share, float weight) {
         if (!level.opacity.empty()) opacity += share * level.opacity[i];
-        if (!level.emissive.empty()) emissive += share * level.emissive[i];
+        diffuse += weight * level.diffuse[i];
+        f0 += weight * level.f0[i];
+        metallic += weight * level.metallic[i];
+        if (!level.occlusion.empty()) occlusion += weight * level.occlusion[i];
+        if (!level.emissive.empty()) emissive += weight * level.emissive[i];
         slopes.add(level.normal.empty() ? Colour(0, 0, 1) : level.normal[i],
-                   pbr::alpha_from_perceptual_roughness(level.perceptual_roughness[i]), share);
+                   pbr::alpha_from_perceptual_roughness(level.perceptual_roughness[i]), weight);
     }
 
     void store(MapLevel& level, std::size_t i) const {
@@ -93,12 +100,19 @@ void fill_row(const MapLevel& level, int y, MapLevel& next) {
     const Cover rows = cover(y, next.height, level.height);
     for (int x = 0; x < next.width; ++x) {
         const Cover columns = cover(x, next.width, level.width);
+        const auto for_each = [&](const auto& body) {
+            for (int j = 0; j < rows.count; ++j)
+                for (int i = 0; i < columns.count; ++i)
+                    body(
+                        level.at(rows.first + j) + static_cast<std::size_t>(columns.first + i),
+                        rows.share[static_cast<std::size_t>(j)] * columns.share[static_cast<std::size_t>(i)]);
+        };
+        float visible = 0;
+        for_each([&](std::size_t i, float share) { visible += share * visibility(level, i); });
         Sums sums;
-        for (int j = 0; j < rows.count; ++j)
-            for (int i = 0; i < columns.count; ++i)
-                sums.add(
-                    level, level.at(rows.first + j) + static_cast<std::size_t>(columns.first + i),
-                    rows.share[static_cast<std::size_t>(j)] * columns.share[static_cast<std::size_t>(i)]);
+        for_each([&](std::size_t i, float share) {
+            sums.add(level, i, share, share * visibility(level, i) / visible);
+        });
         sums.store(next, next.at(y) + static_cast<std::size_t>(x));
     }
 }

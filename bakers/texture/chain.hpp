@@ -22,8 +22,9 @@ RowRange rows_under(RowRange next, int height);
 int reach_under(int row, int height);
 
 /// Fills row y of `next` from the larger level, which holds the rows it covers. Every texel is the mean over
-/// the area it covers of what is reflected (diffuse albedo, f0), metallic, occlusion and opacity. Normals and
-/// perceptual roughness go together by moments of slope (pbr/legacy/normal_variance.hpp).
+/// the area it covers: of opacity, and, weighted by opacity, of what is reflected (diffuse albedo, f0),
+/// metallic, occlusion and emission. Normals and perceptual roughness go together by moments of slope
+/// (pbr/legacy/normal_variance.hpp).
 void fill_row(const MapLevel& level, int y, MapLevel& next);
 
 }  // namespace pbrbake::texture

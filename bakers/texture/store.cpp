@@ -96,11 +96,11 @@ float Store::residual_unit(float largest) const {
     return largest;
 }
 
-void Store::divide_residual(float unit) {
+void Store::divide_residual(float unit, bool is_unit) {
     std::vector<Level>& levels = images_[residual_].levels;
     if (!is_coded_) {
         for (Level& level : levels)
-            for (float& value : level.texels) value = std::min(1.f, value / unit);
+            for (float& value : level.texels) value = is_unit ? std::min(1.f, value / unit) : value / unit;
         return;
     }
     std::vector<float> values(1 << 16);
@@ -116,8 +116,9 @@ void Store::divide_residual(float unit) {
     }
 }
 
-/// The code of a level's number, after what triangular noise of one code's width takes from banding, where
-/// that is asked for.
+/// The code of a level's number, after noise that takes banding away where that is asked for: triangular, up
+/// to a code either way, with which codes have the number's mean (Lipshitz et al. 1992, "Quantization and
+/// Dither").
 std::uint8_t Store::code_of(std::size_t image, std::size_t number, float value) const {
     const Transfer transfer = channel_transfer(images_[image], number % images_[image].channels.size());
     // Black and white stay what they are, and no noise leads beyond them.
@@ -125,7 +126,7 @@ std::uint8_t Store::code_of(std::size_t image, std::size_t number, float value) 
         const std::uint64_t seed = static_cast<std::uint64_t>(params_.seed) + image;
         const double noise = pbr::random_unit(seed, 2 * number) - pbr::random_unit(seed, 2 * number + 1);
         // In sRGB's scale a code is narrower in the dark: half_step knows its width.
-        value += static_cast<float>(noise) * half_step(value, 8, transfer == Transfer::srgb);
+        value += static_cast<float>(noise) * 2 * half_step(value, 8, transfer == Transfer::srgb);
     }
     return unorm8_of(value, transfer);
 }

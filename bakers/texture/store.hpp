@@ -22,8 +22,9 @@ class Store {
     /// that most texels have is an 8-bit code exactly then. What many texels share would else be off by the
     /// same part of a code in all of them.
     float residual_unit(float largest) const;
-    /// Divides the residual by the set's unit, which is known last; ends at 1.
-    void divide_residual(float unit);
+    /// Divides the residual by the set's unit, which is known last. Smaller levels may be above 1, which
+    /// floats keep and `is_unit` ends.
+    void divide_residual(float unit, bool is_unit);
     std::vector<Image> take() { return std::move(images_); }
 
   private:

@@ -486,6 +486,69 @@ TEST(Texture, CodesAreThoseOfTheFloatsThatTheyStandFor) {
     }
 }
 
+/// Where levels mix metal with dielectric, what is left for dielectric f0 is far above the set's unit; floats
+/// hold it.
+TEST(Texture, FloatLevelsKeepMeanF0OfMetalBesideDielectric) {
+    TextureParams params = defaults();
+    params.levels = 0;
+    const auto is_metal = [](int x, int y) { return (x * 7 + y * 3) % 5 < 2; };
+    Inputs inputs;
+    inputs["diffuse"] = source(17, 9, 3, 0, [&](int x, int y) {
+        return is_metal(x, y) ? Rgba{0, 0, 0, 1} : Rgba{.5f, .3f, .2f, 1};
+    });
+    inputs["specular"] = source(17, 9, 3, 0, [&](int x, int y) {
+        return is_metal(x, y) ? Rgba{.9f, .7f, .4f, 1} : Rgba{.04f, .04f, .04f, 1};
+    });
+    const Baked baked = bake_set(params, inputs, PixelType::float32);
+    const double unit = baked.set()["dielectric_f0_unit"];
+    const auto f0 = [&](int level, int x, int y) {
+        const double m = baked.image("orm").texel(level, 0, y, x)[2],
+                     base = baked.image("base_color").texel(level, 0, y, x)[0],
+                     dielectric = baked.image("specular").texel(level, 0, y, x)[0] * unit;
+        return dielectric * (1 - m) + base * m;
+    };
+    double mean = 0;
+    for (int y = 0; y < 9; ++y)
+        for (int x = 0; x < 17; ++x) mean += f0(0, x, y) / (17 * 9);
+    EXPECT_NEAR(f0(4, 0, 0), mean, 1e-4);
+}
+
+TEST(Texture, WhatIsTransparentDoesNotDarkenLevels) {
+    TextureParams params = defaults();
+    params.levels = 0;
+    params.alpha_is = AlphaIs::opacity;
+    Inputs inputs;
+    inputs["diffuse"] = source(8, 8, 4, 0, [](int x, int y) {
+        return y < 4 ? Rgba{.5f, .5f, .5f, 0} : x % 2 ? Rgba{.2f, .6f, .1f, 1} : Rgba{0, 0, 0, 0};
+    });
+    inputs["specular"] = source(8, 8, 3, 0, [](int, int) { return Rgba{.04f, .04f, .04f, 1}; });
+    const Image base = bake_set(params, inputs, PixelType::float32).image("base_color");
+    EXPECT_NEAR(base.texel(1, 0, 3, 0)[1], .6, 1e-5);
+    EXPECT_NEAR(base.texel(1, 0, 3, 0)[3], .5, 1e-6);
+    EXPECT_NEAR(base.texel(1, 0, 0, 0)[1], .5, 1e-5);  // nothing is seen: as if all were
+    EXPECT_NEAR(base.texel(1, 0, 0, 0)[3], 0, 1e-6);
+    EXPECT_NEAR(base.texel(3, 0, 0, 0)[1], .6, 1e-4);
+    EXPECT_NEAR(base.texel(3, 0, 0, 0)[3], .25, 1e-6);
+}
+
+TEST(Texture, NoiseKeepsMeans) {
+    for (const double code : {125.3, 129.7, 177.179, 40.5}) {
+        TextureParams params = defaults();
+        params.dither = true;
+        params.occlusion = "set_o.png";
+        params.packing = Packing::separate;
+        Inputs inputs = specular_gloss_set(256, 0);
+        inputs["occlusion"] = source(256, 256, 1, 0, [&](int, int) {
+            return Rgba{static_cast<float>(code / 255), 0, 0, 0};
+        });
+        const Baked baked = bake_set(params, inputs, PixelType::unorm8);
+        double sum = 0;
+        for (const std::uint8_t stored : baked.image("occlusion").levels[0].codes) sum += stored;
+        // A code's error then has the variance 1/4, whatever the number (Lipshitz et al. 1992).
+        EXPECT_NEAR(sum / (256 * 256), code, 4 * .5 / 256);
+    }
+}
+
 TEST(Texture, MistakesAreNamed) {
     TextureParams params = defaults();
     params.diffuse = params.specular = "";
