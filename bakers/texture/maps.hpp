@@ -10,6 +10,7 @@
 #include "bakers/texture/gloss.hpp"
 #include "bakers/texture/picture.hpp"
 #include "bakers/texture/rules.hpp"
+#include "bakers/texture/sized_map.hpp"
 #include "pbr/legacy/energy.hpp"
 #include "pbr/legacy/texel_planes.hpp"
 
@@ -61,6 +62,7 @@ struct LegacyRow {
     Planes diffuse, f0, specular_albedo;
     Planes diffuse_step, f0_step;  ///< quantisation
     std::vector<float> perceptual_roughness, metallic;
+    std::vector<float> lobe_albedo;  ///< of legacy lobes of ks = 1
     std::vector<std::uint8_t> f0_clamped;
 };
 
@@ -109,72 +111,68 @@ class Sources {
     void read(int x, int y, LegacyRow& row) const;
     /// The other maps' of whole rows, from texel `to` of the planes on.
     void read_normals(int y, std::size_t to, Planes& normals) const;  ///< y as stored
-    void read_occlusion(int y, float* values) const { unit_values(occlusion_, 0, y, width_, values); }
-    void read_opacity(int y, float* values) const { unit_values(opacity_, 0, y, width_, values); }
+    void read_occlusion(int y, float* values) const {
+        unit_values(occlusion_, 0, y, {values, static_cast<std::size_t>(width_)});
+    }
+    void read_opacity(int y, float* values) const {
+        unit_values(opacity_, 0, y, {values, static_cast<std::size_t>(width_)});
+    }
     void read_emissive(int y, std::size_t to, Planes& light) const;
     float occlusion(int x, int y) const;
     /// The exponent that gloss stands for, where it holds one; else < 0. Needs has_gloss().
     float exponent_at(int x, int y) const;
-    bool has_normal() const { return bool(normal_.picture); }
-    bool has_occlusion() const { return bool(occlusion_.picture); }
-    bool has_opacity() const { return bool(opacity_.picture); }
-    bool has_gloss() const { return bool(gloss_.picture); }
-    bool has_emissive() const { return bool(emissive_.picture); }
+    bool has_normal() const { return bool(normal_); }
+    bool has_occlusion() const { return bool(occlusion_); }
+    bool has_opacity() const { return bool(opacity_); }
+    bool has_gloss() const { return bool(gloss_); }
+    bool has_emissive() const { return bool(emissive_); }
     /// Whether the set says what it reflects: a map, or a factor.
-    bool has_specular() const { return specular_.map.picture || specular_.factor != Colour(1); }
+    bool has_specular() const { return bool(specular_.map) || specular_.factor != Colour(1); }
     /// Whether the set has a Phong lobe, whose albedo is known without an f0.
     bool has_legacy_lobe() const;
     pbr::DiffuseCoupling coupling() const { return coupling_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
-    /// One channel, or three from `channel` on, of a picture.
-    struct Map {
-        Picture picture;
-        int channel = 0;
-        bool is_full = false;   ///< as large as the set
-        bool is_srgb = false;   ///< its codes are even in sRGB
-        bool is_coded = false;  ///< as large as the set, and codes
-    };
     /// A map of colours, and what multiplies it; without a map, white.
     struct ColourMap {
-        Map map;
+        SizedMap map;
         Colour factor{1};
         /// Of codes: what they stand for, and half their intervals, times the factor.
         std::array<std::array<float, 256>, 3> values{}, half_steps{};
     };
     /// What a gloss value stands for.
     struct Lobe {
+        float gloss;
         float perceptual_roughness = .5f;
-        float mean = 0;             ///< albedo of the legacy lobe
-        pbr::MeanAlbedo ggx{0, 0};  ///< of the PBR lobe
+        float mean = 0;  ///< albedo of the legacy lobe
     };
 
-    Map map_of(const std::string& field, int channel) const;
+    SizedMap map_of(const std::string& field, int channel) const;
     ColourMap colour_map_of(const std::string& field, const Colour& factor) const;
     void choose_normal();
     void choose_opacity();
     void tabulate_gloss();
     void warn_of_sizes(const Inputs& inputs);
-    void fetch(const Map& map, int x, int y, float* values, int count) const;
-    void unit_values(const Map& map, int x, int y, int count, float* values) const;
+    void unit_values(const SizedMap& map, int x, int y, std::span<float> values) const;
     void read_colours(const ColourMap& colours, int x, int y, Planes& values, Planes& half_steps) const;
-    void read_lobes(int x, int y, std::vector<const Lobe*>& lobes, std::vector<Lobe>& own) const;
+    void read_lobes(int x, int y, LegacyRow& row) const;
     float exponent(float gloss) const;
     float perceptual_roughness(float gloss, float& exponent) const;
     Lobe lobe_of(float gloss) const;
+    const Lobe* tabulated(float gloss) const;
     void reflect_specular(LegacyRow& row) const;
     void reflect_metallic(int x, int y, LegacyRow& row) const;
-    void reflect_phong(const std::vector<const Lobe*>& lobes, LegacyRow& row) const;
+    void reflect_phong(LegacyRow& row) const;
 
     RuledSet rules_;
     const Inputs& inputs_;
     int width_ = 1, height_ = 1;  ///< of factors alone
     ColourMap diffuse_, specular_;
-    Map gloss_, normal_, occlusion_, opacity_, emissive_, metallic_;
+    SizedMap gloss_, normal_, occlusion_, opacity_, emissive_, metallic_;
     GlossReading gloss_reading_;
     pbr::DiffuseCoupling coupling_;
-    std::vector<Lobe> lobes_;  ///< of the codes of an 8-bit gloss map, or the one lobe without a map
+    std::vector<Lobe> lobes_;  ///< of a gloss map's codes, 0 to 1 evenly, or the one lobe without a map
     std::vector<std::string> warnings_;
 };
 

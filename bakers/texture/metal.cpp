@@ -7,7 +7,9 @@ namespace pbrbake::texture {
 namespace {
 
 constexpr float kSure = .95f;  ///< texels this sure keep their own estimate
-constexpr int kRun = 64;       ///< texels that are filled at a time
+/// Texels that are done at a time, the sure ones between too, and some twice at a row's end: vectors are
+/// full.
+constexpr int kRun = 32;
 
 }  // namespace
 
@@ -69,55 +71,36 @@ void MetalRows::regularise(int row, float* out) const {
     std::copy_n(plane(metallic, row), width_, out);
     for (int begin = 0; begin < width_; ++begin) {
         if (sure[begin] >= kSure) continue;
-        int end = begin + 1;
-        while (end < width_ && end - begin < kRun && sure[end] < kSure) ++end;
-        regularise_run(row, begin, end, out);
+        const int first = std::max(0, std::min(begin, width_ - kRun)), end = std::min(first + kRun, width_);
+        regularise_run(row, first, end, out);
         begin = end - 1;
     }
 }
 
-/// Weighted mean of the sure neighbours that look alike: a joint bilateral filter (Petschnigg et al. 2004)
-/// with confidence as a weight; rational instead of Gaussian. Planes and runs, so that compilers vectorise.
+/// The less sure a texel is, the more it takes of what its neighbours that look alike say.
 void MetalRows::regularise_run(int row, int begin, int end, float* out) const {
-    constexpr float kAlike2 = .05f * .05f;  // squared distance in diffuse and f0 at which a weight is 1/4
-    constexpr float kOwn = 1e-3f;
     constexpr float kLeast = 1e-6f;
+    constexpr int kWidth = 2 * kMetalReach + 1;
     const int count = end - begin;
-    std::array<float, kRun> sum, weights;
-    const float* own = plane(metallic, row) + begin;
-    for (int i = 0; i < count; ++i) {
-        sum[static_cast<std::size_t>(i)] = own[i] * kOwn;
-        weights[static_cast<std::size_t>(i)] = kOwn;
-    }
-    std::array<const float*, 6> here;
-    for (int c = 0; c < 6; ++c) here[static_cast<std::size_t>(c)] = plane(c, row) + begin;
+    std::array<std::ptrdiff_t, kWidth * kWidth> apart;
+    std::size_t neighbours = 0;
     for (int dy = -kMetalReach; dy <= kMetalReach; ++dy) {
         const float* near = plane(confidence, row + dy) + begin;
         if (std::all_of(near - kMetalReach, near + count + kMetalReach, [](float c) { return c <= 0; }))
             continue;
-        for (int dx = -kMetalReach; dx <= kMetalReach; ++dx) {
-            if (dx == 0 && dy == 0) continue;
-            std::array<const float*, planes> there;
-            for (int p = 0; p < planes; ++p)
-                there[static_cast<std::size_t>(p)] = plane(p, row + dy) + begin + dx;
-            for (int i = 0; i < count; ++i) {
-                float far = 0;
-                for (std::size_t c = 0; c < 6; ++c) {
-                    const float d = there[c][i] - here[c][i];
-                    far += d * d;
-                }
-                // Squared, so that what is nothing like this texel doesn't outweigh it by its numbers.
-                const float likeness = kAlike2 / (kAlike2 + far);
-                const float weight = there[confidence][i] * likeness * likeness;
-                sum[static_cast<std::size_t>(i)] += weight * there[metallic][i];
-                weights[static_cast<std::size_t>(i)] += weight;
-            }
-        }
+        for (int dx = -kMetalReach; dx <= kMetalReach; ++dx)
+            if (dx != 0 || dy != 0) apart[neighbours++] = std::ptrdiff_t{dy} * pitch_ + dx;
     }
-    const float* sure = plane(confidence, row) + begin;
+    std::array<const float*, 6> here;
+    for (int c = 0; c < 6; ++c) here[static_cast<std::size_t>(c)] = plane(c, row) + begin;
+    const float *own = plane(metallic, row) + begin, *sure = plane(confidence, row) + begin;
+    std::array<float, kRun> means;
+    pbr::metallic_of_alike({{here[0], here[1], here[2]}, {here[3], here[4], here[5]}}, own, sure,
+                           std::span(apart).first(neighbours), static_cast<std::size_t>(count), means.data());
     for (int i = 0; i < count; ++i) {
+        if (sure[i] >= kSure) continue;
         const float doubt = 1 - sure[i] / kSure;
-        const float mean = sum[static_cast<std::size_t>(i)] / weights[static_cast<std::size_t>(i)];
+        const float mean = means[static_cast<std::size_t>(i)];
         // No more than surely has a material: with base colour f0 / m no dielectric f0 is left in the least
         // channel, and in no other more than f0 / (1 - m), which lets the rest of the light through to
         // diffuse.

@@ -140,18 +140,15 @@ void make_materials(const TextureParams& params, const Layout& layout, const pbr
     if (layout.is_specular_gloss) return;
     const MapLevel& level = texels.level;
     const auto f = static_cast<float>(params.dielectric_f0);
+    const pbr::ReflectedPlanes reflected{level.diffuse.from(texels.begin), level.f0.from(texels.begin)};
+    const pbr::MaterialPlanes materials{texels.base_color.from(0), texels.dielectric_f0.from(0)};
+    const float* metallic = level.metallic.data() + texels.begin;
     if (layout.has_residual)
-        return pbr::material_with_residual({level.diffuse.from(texels.begin), level.f0.from(texels.begin)},
-                                           level.metallic.data() + texels.begin, f, tolerance,
-                                           layout.coupling, texels.count,
-                                           {texels.base_color.from(0), texels.dielectric_f0.from(0)});
-    for (std::size_t i = 0; i < texels.count; ++i) {
-        const std::size_t at = texels.begin + i;
-        const auto material = pbr::material_without_residual<float>(
-            {level.diffuse[at], level.f0[at]}, level.metallic[at], f, layout.largest_f0, layout.coupling);
-        texels.base_color.set(i, material.base_color);
-        texels.dielectric_f0.set(i, material.dielectric_f0);
-    }
+        pbr::material_with_residual(reflected, metallic, f, tolerance, layout.coupling, texels.count,
+                                    materials);
+    else
+        pbr::material_without_residual(reflected, metallic, f, layout.largest_f0, layout.coupling,
+                                       texels.count, materials);
 }
 
 void pack(Held held, const Texels& texels, float* values) {

@@ -21,6 +21,17 @@ Picture::Picture(const SourceImage& source)
       height_(source.image.levels.front().height),
       channels_(source.image.channel_count()) {}
 
+void Picture::read(int x, int y, int channel, std::span<float> values) const {
+    const std::size_t at = index(x, y) + static_cast<std::size_t>(channel);
+    const auto step = static_cast<std::size_t>(channels_);
+    if (codes_) {
+        const std::array<float, 256>& linear = table(channel);
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = linear[codes_[at + i * step]];
+    } else {
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = texels_[at + i * step];
+    }
+}
+
 bool Picture::varies(int channel) const {
     const std::size_t texels = static_cast<std::size_t>(width_) * height_;
     const auto differs = [&](const auto* values) {

@@ -2,6 +2,7 @@
 // A decoded map of a set, whichever way it is held: floats, or an 8-bit file's codes.
 
 #include <array>
+#include <span>
 
 #include "bakers/baker.hpp"
 
@@ -21,16 +22,15 @@ class Picture {
     bool is_srgb() const { return source_->colour_space.find("srgb") != std::string::npos; }
     bool is_same(const Picture& other) const { return source_ == other.source_; }
 
-    /// `count` channels from `channel` on, of the texel in column x of row y; linear.
-    void read(int x, int y, int channel, int count, float* values) const {
-        const std::size_t at = (static_cast<std::size_t>(y) * width_ + x) * channels_ + channel;
-        for (int c = 0; c < count; ++c)
-            values[c] = codes_ ? (*tables_[channel + c < 3])[codes_[at + c]] : texels_[at + c];
+    /// A channel of row y from column x on; linear.
+    void read(int x, int y, int channel, std::span<float> values) const;
+    /// The same of one texel.
+    float value(int x, int y, int channel) const {
+        const std::size_t at = index(x, y) + static_cast<std::size_t>(channel);
+        return codes_ ? table(channel)[codes_[at]] : texels_[at];
     }
     /// The codes of a texel; null where it is floats. `linear` says what those of R G B stand for.
-    const std::uint8_t* codes(int x, int y) const {
-        return codes_ ? codes_ + (static_cast<std::size_t>(y) * width_ + x) * channels_ : nullptr;
-    }
+    const std::uint8_t* codes(int x, int y) const { return codes_ ? codes_ + index(x, y) : nullptr; }
     float linear(std::uint8_t code) const { return source_->linear[code]; }
     /// Whether a channel isn't the same everywhere.
     bool varies(int channel) const;
@@ -38,6 +38,9 @@ class Picture {
     bool is_grey() const;
 
   private:
+    std::size_t index(int x, int y) const { return (static_cast<std::size_t>(y) * width_ + x) * channels_; }
+    const std::array<float, 256>& table(int channel) const { return *tables_[channel < 3]; }
+
     const SourceImage* source_ = nullptr;
     const std::uint8_t* codes_ = nullptr;  ///< null: floats
     const float* texels_ = nullptr;

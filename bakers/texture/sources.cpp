@@ -83,24 +83,21 @@ void Sources::warn_of_sizes(const Inputs& inputs) {
 }
 
 /// No map where the set has no such file, or that no such channel.
-Sources::Map Sources::map_of(const std::string& field, int channel) const {
+SizedMap Sources::map_of(const std::string& field, int channel) const {
     const Picture picture = picture_of(inputs_, field);
     if (picture.channels() <= channel) return {};
-    Map map{picture, channel, picture.width() == width_ && picture.height() == height_,
-            channel < 3 && picture.is_srgb(), false};
-    map.is_coded = map.is_full && picture.codes(0, 0);
-    return map;
+    return {picture, channel, width_, height_, rules_.params.wrap};
 }
 
 Sources::ColourMap Sources::colour_map_of(const std::string& field, const Colour& factor) const {
     ColourMap colours{map_of(field, 0), factor, {}, {}};
-    if (!colours.map.is_coded) return colours;
+    if (!colours.map.codes(0, 0)) return colours;
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t code = 0; code < 256; ++code) {
-            const float linear = colours.map.picture.linear(static_cast<std::uint8_t>(code));
+            const float linear = colours.map.picture().linear(static_cast<std::uint8_t>(code));
             const float scale = factor[static_cast<int>(c)];
             colours.values[c][code] = std::min(linear * scale, 1.f);
-            colours.half_steps[c][code] = half_step(linear, 8, colours.map.is_srgb) * scale;
+            colours.half_steps[c][code] = half_step(linear, 8, colours.map.is_srgb()) * scale;
         }
     return colours;
 }
@@ -108,7 +105,7 @@ Sources::ColourMap Sources::colour_map_of(const std::string& field, const Colour
 /// Tangent-space normals point up, so they are blue.
 void Sources::choose_normal() {
     normal_ = map_of("normal", 0);
-    if (!normal_.picture || !normal_.picture.is_grey()) return;
+    if (!normal_ || !normal_.picture().is_grey()) return;
     normal_ = {};
     warnings_.push_back("normal: is grey, so it holds heights and no normals; left out");
 }
@@ -116,49 +113,22 @@ void Sources::choose_normal() {
 void Sources::choose_opacity() {
     const TextureParams& params = rules_.params;
     opacity_ = map_of("opacity", 0);
-    if (opacity_.picture || params.alpha_is == AlphaIs::nothing) return;
-    const Picture& colours = diffuse_.map.picture;
-    const bool is_gloss = gloss_.picture && gloss_.picture.is_same(colours);
+    if (opacity_ || params.alpha_is == AlphaIs::nothing) return;
+    const Picture& colours = diffuse_.map.picture();
+    const bool is_gloss = gloss_ && gloss_.picture().is_same(colours);
     if (colours.channels() < 4 || is_gloss) return;
     if (params.alpha_is != AlphaIs::opacity && !colours.varies(3)) return;
-    opacity_ = {colours, 3, diffuse_.map.is_full, false, diffuse_.map.is_coded};
+    opacity_ = {colours, 3, width_, height_, params.wrap};
 }
 
-void Sources::fetch(const Map& map, int x, int y, float* values, int count) const {
-    const Picture& picture = map.picture;
-    if (map.is_full) return picture.read(x, y, map.channel, count, values);
-    const double u = (x + .5) * picture.width() / width_ - .5, v = (y + .5) * picture.height() / height_ - .5;
-    const double left = std::floor(u), top = std::floor(v);
-    const auto place = [&](double at, int size) {
-        const int i = static_cast<int>(at);
-        return rules_.params.wrap == Wrap::repeat ? (i % size + size) % size : std::clamp(i, 0, size - 1);
-    };
-    const int x0 = place(left, picture.width()), x1 = place(left + 1, picture.width());
-    const int y0 = place(top, picture.height()), y1 = place(top + 1, picture.height());
-    const auto fx = static_cast<float>(u - left), fy = static_cast<float>(v - top);
-    std::array<std::array<float, 3>, 4> corners;
-    picture.read(x0, y0, map.channel, count, corners[0].data());
-    picture.read(x1, y0, map.channel, count, corners[1].data());
-    picture.read(x0, y1, map.channel, count, corners[2].data());
-    picture.read(x1, y1, map.channel, count, corners[3].data());
-    for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
-        const float upper = corners[0][c] + (corners[1][c] - corners[0][c]) * fx;
-        const float lower = corners[2][c] + (corners[3][c] - corners[2][c]) * fx;
-        values[c] = upper + (lower - upper) * fy;
-    }
-}
-
-void Sources::unit_values(const Map& map, int x, int y, int count, float* values) const {
-    for (int i = 0; i < count; ++i) {
-        values[i] = 1;
-        fetch(map, x + i, y, &values[i], 1);
-        values[i] = std::clamp(values[i], 0.f, 1.f);
-    }
+void Sources::unit_values(const SizedMap& map, int x, int y, std::span<float> values) const {
+    map.read(0, x, y, values);
+    for (float& value : values) value = std::clamp(value, 0.f, 1.f);
 }
 
 float Sources::occlusion(int x, int y) const {
     float value = 1;
-    unit_values(occlusion_, x, y, 1, &value);
+    unit_values(occlusion_, x, y, {&value, 1});
     return value;
 }
 
@@ -174,7 +144,7 @@ float Sources::exponent(float gloss) const {
 
 float Sources::exponent_at(int x, int y) const {
     float gloss = 0;
-    fetch(gloss_, x, y, &gloss, 1);
+    gloss_.read(0, x, y, {&gloss, 1});
     return exponent(gloss * static_cast<float>(rules_.params.gloss_factor));
 }
 
@@ -187,7 +157,7 @@ float Sources::perceptual_roughness(float gloss, float& n) const {
             pbr::alpha_from_blinn_phong(blinn, fit_of(rules_.params.fit)));
     };
     constexpr float kAssumed = .5f;  // of a set that says nothing
-    const bool has_value = gloss_.picture || gloss_reading_.in == GlossIn::constant;
+    const bool has_value = gloss_ || gloss_reading_.in == GlossIn::constant;
     n = has_value ? exponent(gloss) : rules_.params.power > 0 ? static_cast<float>(rules_.params.power) : -1;
     if (n >= 0) return of_exponent(n);
     const float value = std::clamp(gloss, 0.f, 1.f);
@@ -201,14 +171,13 @@ float Sources::perceptual_roughness(float gloss, float& n) const {
 }
 
 Sources::Lobe Sources::lobe_of(float gloss) const {
-    Lobe lobe;
+    Lobe lobe{gloss};
     float n = 0;
     lobe.perceptual_roughness =
         perceptual_roughness(gloss * static_cast<float>(rules_.params.gloss_factor), n);
     if (!has_legacy_lobe()) return lobe;
     const auto kind = rules_.params.model == Model::phong ? pbr::PhongLobe::mirror : pbr::PhongLobe::blinn;
     lobe.mean = pbr::phong_albedo(norm_of(rules_.params.norm), kind, n).mean;
-    lobe.ggx = pbr::mean_albedo_ggx(static_cast<double>(lobe.perceptual_roughness));
     return lobe;
 }
 
@@ -218,47 +187,59 @@ bool Sources::has_legacy_lobe() const {
 }
 
 void Sources::tabulate_gloss() {
-    if (!gloss_.picture)
+    if (!gloss_) {
         lobes_.push_back(lobe_of(1));
-    else if (gloss_.picture.bits() == 8 && !gloss_.is_srgb)
-        for (int code = 0; code < 256; ++code) lobes_.push_back(lobe_of(static_cast<float>(code / 255.)));
-}
-
-/// The lobes of a row; those that aren't tabulated are kept in `own`.
-void Sources::read_lobes(int x, int y, std::vector<const Lobe*>& lobes, std::vector<Lobe>& own) const {
-    if (!gloss_.picture) {
-        std::ranges::fill(lobes, &lobes_.front());
         return;
     }
-    const bool has_codes = gloss_.is_coded && !lobes_.empty();
-    for (std::size_t i = 0; i < lobes.size(); ++i) {
-        const int column = x + static_cast<int>(i);
-        if (has_codes) {
-            lobes[i] = &lobes_[gloss_.picture.codes(column, y)[gloss_.channel]];
-            continue;
-        }
-        float gloss = 0;
-        fetch(gloss_, column, y, &gloss, 1);
-        const auto code = static_cast<std::size_t>(std::clamp(gloss, 0.f, 1.f) * 255 + .5f);
-        if (!lobes_.empty() && static_cast<float>(static_cast<double>(code) / 255.) == gloss) {
-            lobes[i] = &lobes_[code];
-            continue;
-        }
-        own.push_back(lobe_of(gloss));
-        lobes[i] = &own.back();
+    const int bits = gloss_.picture().bits();
+    // Many more texels than codes, or a table isn't worth its making.
+    const bool is_large = static_cast<std::size_t>(width_) * height_ > std::size_t{1} << 18;
+    if (bits == 8 && !gloss_.is_srgb())
+        for (int code = 0; code < 256; ++code) lobes_.push_back(lobe_of(static_cast<float>(code / 255.)));
+    else if (bits == 16 && is_large)
+        for (int code = 0; code < 65536; ++code)
+            lobes_.push_back(lobe_of(static_cast<float>(code) * (1.f / 65535)));
+}
+
+void Sources::read_lobes(int x, int y, LegacyRow& row) const {
+    const auto set = [&row](std::size_t i, const Lobe& lobe) {
+        row.perceptual_roughness[i] = lobe.perceptual_roughness;
+        row.lobe_albedo[i] = lobe.mean;
+    };
+    if (!gloss_) {
+        for (std::size_t i = 0; i < row.texels(); ++i) set(i, lobes_.front());
+        return;
     }
+    const std::uint8_t* codes = lobes_.empty() ? nullptr : gloss_.codes(x, y);
+    const auto step = static_cast<std::size_t>(gloss_.picture().channels());
+    if (codes) {
+        for (std::size_t i = 0; i < row.texels(); ++i) set(i, lobes_[codes[i * step]]);
+        return;
+    }
+    std::vector<float> gloss(row.texels());
+    gloss_.read(0, x, y, gloss);
+    for (std::size_t i = 0; i < gloss.size(); ++i) {
+        const Lobe* known = tabulated(gloss[i]);
+        set(i, known ? *known : lobe_of(gloss[i]));
+    }
+}
+
+const Sources::Lobe* Sources::tabulated(float gloss) const {
+    if (lobes_.empty()) return nullptr;
+    const auto last = static_cast<float>(lobes_.size() - 1);
+    const Lobe& lobe = lobes_[static_cast<std::uint32_t>(std::clamp(gloss, 0.f, 1.f) * last + .5f)];
+    return lobe.gloss == gloss ? &lobe : nullptr;
 }
 
 void Sources::read_colours(const ColourMap& colours, int x, int y, Planes& values, Planes& half_steps) const {
     const std::size_t count = values.channels[0].size();
-    const Map& map = colours.map;
-    if (!map.picture) {
+    const SizedMap& map = colours.map;
+    if (!map) {
         values.fill(glm::min(colours.factor, Colour(1)));
         return half_steps.fill(Colour(0));
     }
-    if (map.is_coded) {
-        const std::uint8_t* codes = map.picture.codes(x, y);
-        const auto step = static_cast<std::size_t>(map.picture.channels());
+    if (const std::uint8_t* codes = map.codes(x, y)) {
+        const auto step = static_cast<std::size_t>(map.picture().channels());
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < count; ++i) {
                 const std::uint8_t code = codes[i * step + c];
@@ -267,13 +248,16 @@ void Sources::read_colours(const ColourMap& colours, int x, int y, Planes& value
             }
         return;
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        Colour value, step;
-        fetch(map, x + static_cast<int>(i), y, &value.x, 3);
-        for (int c = 0; c < 3; ++c)
-            step[c] = colours.factor[c] * half_step(value[c], map.picture.bits(), map.is_srgb);
-        values.set(i, glm::clamp(value * colours.factor, Colour(0), Colour(1)));
-        half_steps.set(i, step);
+    const int bits = map.picture().bits();
+    const bool is_srgb = map.is_srgb();
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float factor = colours.factor[static_cast<int>(c)];
+        map.read(static_cast<int>(c), x, y, values.channels[c]);
+        for (std::size_t i = 0; i < count; ++i) {
+            float& value = values.channels[c][i];
+            half_steps.channels[c][i] = factor * half_step(value, bits, is_srgb);
+            value = std::clamp(value * factor, 0.f, 1.f);
+        }
     }
 }
 
@@ -285,16 +269,11 @@ LegacyTexel Sources::texel(int x, int y) const {
 
 void Sources::read(int x, int y, LegacyRow& row) const {
     read_colours(diffuse_, x, y, row.diffuse, row.diffuse_step);
-    std::vector<const Lobe*> lobes(row.texels());
-    std::vector<Lobe> own;
-    own.reserve(row.texels());  // lobes point to them
-    read_lobes(x, y, lobes, own);
-    for (std::size_t i = 0; i < lobes.size(); ++i)
-        row.perceptual_roughness[i] = lobes[i]->perceptual_roughness;
+    read_lobes(x, y, row);
     if (rules_.params.model == Model::metallic_roughness) return reflect_metallic(x, y, row);
     read_colours(specular_, x, y, row.f0, row.f0_step);
     if (!has_specular()) row.f0.fill(Colour(static_cast<float>(rules_.params.dielectric_f0)));
-    has_legacy_lobe() ? reflect_phong(lobes, row) : reflect_specular(row);
+    has_legacy_lobe() ? reflect_phong(row) : reflect_specular(row);
 }
 
 /// pbr::reflected_from_specular of colours that were read in place.
@@ -313,8 +292,8 @@ void Sources::reflect_specular(LegacyRow& row) const {
 /// As glTF couples them, whatever the target.
 void Sources::reflect_metallic(int x, int y, LegacyRow& row) const {
     const auto f = static_cast<float>(rules_.params.dielectric_f0);
-    if (metallic_.picture)
-        unit_values(metallic_, x, y, static_cast<int>(row.texels()), row.metallic.data());
+    if (metallic_)
+        unit_values(metallic_, x, y, row.metallic);
     else
         std::ranges::fill(row.metallic, 0.f);
     for (std::size_t i = 0; i < row.texels(); ++i) {
@@ -327,41 +306,55 @@ void Sources::reflect_metallic(int x, int y, LegacyRow& row) const {
     }
 }
 
-void Sources::reflect_phong(const std::vector<const Lobe*>& lobes, LegacyRow& row) const {
+/// The lobe takes specular's colour: its energy is kept in the mean channel.
+void Sources::reflect_phong(LegacyRow& row) const {
+    const std::size_t count = row.texels();
     const auto scattering = rules_.params.multiscatter ? pbr::Scattering::multiple : pbr::Scattering::single;
-    for (std::size_t i = 0; i < row.texels(); ++i) {
-        const Lobe& lobe = *lobes[i];
-        const Colour albedo = row.f0[i] * lobe.mean;
-        const float grey = pbr::mean_channel(albedo);
-        const pbr::SolvedF0 solved =
-            pbr::f0_from_mean_albedo(static_cast<double>(grey), lobe.ggx, scattering);
-        const float scale = grey > 0 ? static_cast<float>(solved.f0) / grey : 0;
-        row.specular_albedo.set(i, albedo);
-        row.f0.set(i, glm::min(albedo * scale, Colour(1)));
-        row.f0_step.set(i, row.f0_step[i] * (lobe.mean * scale));
-        row.f0_clamped[i] = solved.clamped || pbr::max_channel(albedo) * scale > 1;
+    const float* mean = row.lobe_albedo.data();
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float* ks = row.f0.channels[c].data();
+        float* albedo = row.specular_albedo.channels[c].data();
+        for (std::size_t i = 0; i < count; ++i) albedo[i] = ks[i] * mean[i];
+    }
+    const auto [r, g, b] = std::as_const(row.specular_albedo).from(0);
+    std::vector<float> grey(count), scale(count);
+    for (std::size_t i = 0; i < count; ++i) grey[i] = (r[i] + g[i] + b[i]) / 3.f;
+    pbr::f0_from_mean_albedo(grey.data(), row.perceptual_roughness.data(), scattering, count, scale.data(),
+                             row.f0_clamped.data());
+    for (std::size_t i = 0; i < count; ++i) scale[i] = grey[i] > 0 ? scale[i] / grey[i] : 0;
+    for (std::size_t i = 0; i < count; ++i)
+        row.f0_clamped[i] |= std::max(r[i], std::max(g[i], b[i])) * scale[i] > 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float* albedo = row.specular_albedo.channels[c].data();
+        float* f0 = row.f0.channels[c].data();
+        float* step = row.f0_step.channels[c].data();
+        for (std::size_t i = 0; i < count; ++i) {
+            f0[i] = std::min(albedo[i] * scale[i], 1.f);
+            step[i] *= mean[i] * scale[i];
+        }
     }
 }
 
 void Sources::read_normals(int y, std::size_t to, Planes& normals) const {
-    for (int x = 0; x < width_; ++x) {
-        Colour n;
-        fetch(normal_, x, y, &n.x, 3);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::span values(normals.channels[c].data() + to, static_cast<std::size_t>(width_));
+        normal_.read(static_cast<int>(c), 0, y, values);
         // 8-bit maps put level at code 128 or 127.5; 255/2 is what most writers mean.
-        normals.set(to + static_cast<std::size_t>(x), n * 2.f - 1.f);
+        for (float& value : values) value = value * 2.f - 1.f;
     }
 }
 
 void Sources::read_emissive(int y, std::size_t to, Planes& light) const {
-    for (int x = 0; x < width_; ++x) {
-        Colour value;
-        fetch(emissive_, x, y, &value.x, 3);
-        light.set(to + static_cast<std::size_t>(x), glm::clamp(value, Colour(0), Colour(1)));
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::span values(light.channels[c].data() + to, static_cast<std::size_t>(width_));
+        emissive_.read(static_cast<int>(c), 0, y, values);
+        for (float& value : values) value = std::clamp(value, 0.f, 1.f);
     }
 }
 
-LegacyRow::LegacyRow(int texels) : perceptual_roughness(static_cast<std::size_t>(texels)) {
-    const auto count = static_cast<std::size_t>(texels);
+LegacyRow::LegacyRow(int texels)
+    : perceptual_roughness(static_cast<std::size_t>(texels)), lobe_albedo(perceptual_roughness.size()) {
+    const std::size_t count = perceptual_roughness.size();
     for (Planes* planes : {&diffuse, &f0, &specular_albedo, &diffuse_step, &f0_step}) planes->resize(count);
     metallic.assign(count, -1.f);
     f0_clamped.resize(count);

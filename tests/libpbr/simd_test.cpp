@@ -13,6 +13,7 @@
 #include "pbr/ibl/ld_harmonic.hpp"
 #include "pbr/ibl/ld_mis.hpp"
 #include "pbr/ibl/near_field.hpp"
+#include "pbr/legacy/energy.hpp"
 #include "pbr/legacy/texel_planes.hpp"
 #include "pbr/numerics/sequence.hpp"
 
@@ -38,10 +39,11 @@ struct Results {
     bool operator==(const Results&) const = default;
 };
 
-/// Metallic, confidence, base colour and dielectric f0 of noise, a plane each.
+/// Metallic, confidence, materials of both kinds, what neighbours say, and the f0 of lobes, of noise, a plane
+/// each.
 std::vector<float> texel_planes() {
     constexpr std::size_t kTexels = 301, kPlanes = 9;
-    std::vector<float> noise(kPlanes * kTexels), planes(8 * kTexels);
+    std::vector<float> noise(kPlanes * kTexels), planes(17 * kTexels);
     for (std::size_t i = 0; i < noise.size(); ++i)
         noise[i] = static_cast<float>(random_unit(2, i)) * (i < 6 * kTexels ? 1.f : .003f);
     const auto colours = [&](std::size_t first) {
@@ -55,6 +57,13 @@ std::vector<float> texel_planes() {
                       to(1));
     material_with_residual(reflected, to(0), .04f, colours(6), kCoupling, kTexels,
                            {{to(2), to(3), to(4)}, {to(5), to(6), to(7)}});
+    material_without_residual(reflected, to(0), .04f, .16f, kCoupling, kTexels,
+                              {{to(8), to(9), to(10)}, {to(11), to(12), to(13)}});
+    const std::vector<std::ptrdiff_t> apart{1, 2, 3, 4};
+    metallic_of_alike(reflected, to(0), to(1), apart, kTexels - 4, to(14));
+    std::vector<std::uint8_t> clamped(kTexels);
+    f0_from_mean_albedo(colours(0)[0], colours(1)[0], Scattering::multiple, kTexels, to(15), clamped.data());
+    std::ranges::copy(clamped, to(16));
     return planes;
 }
 

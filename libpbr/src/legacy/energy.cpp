@@ -4,24 +4,16 @@
 #include <array>
 #include <cmath>
 
+#include "src/legacy/mean_albedo_fit.hpp"
+
 namespace pbr {
 namespace {
-
-/// Fits at Chebyshev nodes; lowest power first.
-constexpr std::array kE{.99999978,   4.2863883e-05, .000575394657, -.132804113, -4.99341348, 13.324337,
-                        -23.7703342, 31.5947027,    -25.8141901,   11.152991,   -1.9527692};
-constexpr std::array kFc{.0476217617, -.00066311233, .0281961339, -.59658902, -3.88473752, 28.175411,
-                         -72.3342107, 99.9956362,    -79.6328315, 34.5652046, -6.36028471};
 
 double polynomial(const std::array<double, 11>& coefficients, double x) {
     double sum = 0;
     for (std::size_t i = coefficients.size(); i-- > 0;) sum = sum * x + coefficients[i];
     return sum;
 }
-
-constexpr double kF90Slope = 50 * .33 * 3;  ///< of f90_from_f0 over grey f0
-constexpr double kFullF90 = 1 / kF90Slope;  ///< the f0 from which f90 is 1
-constexpr double kMeanWeight = 1. / 21;     ///< mean of Schlick's weight
 
 /// Single-scattering albedo is k0 + k1 F_avg, on either side of kFullF90.
 struct Piece {
@@ -44,7 +36,7 @@ Piece piece_above(const MeanAlbedo& lobe) {
 }  // namespace
 
 MeanAlbedo mean_albedo_ggx(double perceptual_roughness) {
-    return {polynomial(kE, perceptual_roughness), polynomial(kFc, perceptual_roughness)};
+    return {polynomial(kMeanE, perceptual_roughness), polynomial(kMeanFc, perceptual_roughness)};
 }
 
 double mean_specular_albedo(double f0, const MeanAlbedo& lobe, Scattering scattering) {

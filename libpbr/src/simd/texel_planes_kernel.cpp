@@ -170,6 +170,83 @@ std::size_t material_all(const ReflectedPlanes& reflected, const float* metallic
     return i;
 }
 
+/// See pbr::material_without_residual.
+HWY_INLINE void grey_material_at(std::size_t i, const ReflectedPlanes& reflected, const float* metallic,
+                                 float dielectric_f0, float largest_f0, bool coupled,
+                                 const MaterialPlanes& materials) {
+    const V one = set(1), zero = hn::Zero(d), usual = set(dielectric_f0);
+    const V m = hn::LoadU(d, metallic + i), rest = hn::Sub(one, m), rest2 = hn::Mul(rest, rest);
+    const V weight = hn::Add(rest2, hn::Mul(m, m));
+    const V told = hn::Div(rest2, hn::Add(rest2, set(1e-3f)));
+    const auto is_mixed = hn::Gt(rest, zero);
+    V base[3], f = usual;
+    for (int turn = 0; turn < kGreyTurns; ++turn) {
+        const V left = coupled ? hn::Sub(one, f) : one, dielectric = hn::Mul(f, rest);
+        V unexplained = zero;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const V diffuse = hn::LoadU(d, reflected.diffuse[c] + i), f0 = hn::LoadU(d, reflected.f0[c] + i);
+            const V own = hn::IfThenElseZero(hn::Gt(left, zero), hn::Div(diffuse, left));
+            const V metal = hn::Mul(m, hn::Sub(f0, dielectric));
+            base[c] = clamp(hn::Div(hn::Add(hn::Mul(rest, own), metal), weight), zero, one);
+            unexplained = hn::Add(unexplained, hn::Div(hn::Sub(f0, hn::Mul(base[c], m)), set(3)));
+        }
+        if (largest_f0 <= 0) break;
+        const V found = clamp(hn::Div(unexplained, rest), zero, set(largest_f0));
+        f = hn::Add(usual, hn::Mul(hn::Sub(hn::IfThenElse(is_mixed, found, usual), usual), told));
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        hn::StoreU(base[c], d, materials.base_color[c] + i);
+        hn::StoreU(f, d, materials.dielectric_f0[c] + i);
+    }
+}
+
+/// Returns how many texels were done.
+std::size_t grey_material_all(const ReflectedPlanes& reflected, const float* metallic, float dielectric_f0,
+                              float largest_f0, DiffuseCoupling coupling, std::size_t count,
+                              const MaterialPlanes& materials) {
+    const std::size_t lanes = hn::Lanes(d);
+    const bool coupled = coupling == DiffuseCoupling::fresnel;
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes)
+        grey_material_at(i, reflected, metallic, dielectric_f0, largest_f0, coupled, materials);
+    return i;
+}
+
+HWY_INLINE V alike_at(std::size_t i, const ReflectedPlanes& reflected, const float* metallic,
+                      const float* confidence, std::span<const std::ptrdiff_t> apart) {
+    const auto at = [i](const float* plane) HWY_ATTR { return hn::LoadU(d, plane + i); };
+    const V alike2 = set(kAlike2);
+    V here[6];
+    for (std::size_t c = 0; c < 3; ++c) {
+        here[c] = at(reflected.diffuse[c]);
+        here[c + 3] = at(reflected.f0[c]);
+    }
+    V sum = hn::Mul(at(metallic), set(kOwnWeight)), weights = set(kOwnWeight);
+    for (const std::ptrdiff_t there : apart) {
+        V far = hn::Zero(d);
+        for (std::size_t c = 0; c < 6; ++c) {
+            const float* plane = c < 3 ? reflected.diffuse[c] : reflected.f0[c - 3];
+            const V off = hn::Sub(at(plane + there), here[c]);
+            far = hn::Add(far, hn::Mul(off, off));
+        }
+        const V likeness = hn::Div(alike2, hn::Add(alike2, far));
+        const V weight = hn::Mul(hn::Mul(at(confidence + there), likeness), likeness);
+        sum = hn::Add(sum, hn::Mul(weight, at(metallic + there)));
+        weights = hn::Add(weights, weight);
+    }
+    return hn::Div(sum, weights);
+}
+
+/// Returns how many texels were done.
+std::size_t alike_all(const ReflectedPlanes& reflected, const float* metallic, const float* confidence,
+                      std::span<const std::ptrdiff_t> apart, std::size_t count, float* means) {
+    const std::size_t lanes = hn::Lanes(d);
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes)
+        hn::StoreU(alike_at(i, reflected, metallic, confidence, apart), d, means + i);
+    return i;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace pbr
 HWY_AFTER_NAMESPACE();
@@ -180,6 +257,8 @@ namespace {
 
 HWY_EXPORT(estimate_all);
 HWY_EXPORT(material_all);
+HWY_EXPORT(grey_material_all);
+HWY_EXPORT(alike_all);
 
 Vec3<float> colour_at(const ColourPlanes& planes, std::size_t i) {
     return {planes[0][i], planes[1][i], planes[2][i]};
@@ -187,6 +266,31 @@ Vec3<float> colour_at(const ColourPlanes& planes, std::size_t i) {
 
 Reflected<float> reflected_at(const ReflectedPlanes& planes, std::size_t i) {
     return {colour_at(planes.diffuse, i), colour_at(planes.f0, i)};
+}
+
+void store(const MetallicMaterial<float>& material, const MaterialPlanes& planes, std::size_t i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        planes.base_color[c][i] = material.base_color[static_cast<int>(c)];
+        planes.dielectric_f0[c][i] = material.dielectric_f0[static_cast<int>(c)];
+    }
+}
+
+float alike_of_one(std::ptrdiff_t i, const ReflectedPlanes& reflected, const float* metallic,
+                   const float* confidence, std::span<const std::ptrdiff_t> apart) {
+    float sum = metallic[i] * kOwnWeight, weights = kOwnWeight;
+    for (const std::ptrdiff_t there : apart) {
+        float far = 0;
+        for (const ColourPlanes* planes : {&reflected.diffuse, &reflected.f0})
+            for (const float* plane : *planes) {
+                const float off = plane[i + there] - plane[i];
+                far += off * off;
+            }
+        const float likeness = kAlike2 / (kAlike2 + far);
+        const float weight = confidence[i + there] * likeness * likeness;
+        sum += weight * metallic[i + there];
+        weights += weight;
+    }
+    return sum / weights;
 }
 
 }  // namespace
@@ -209,15 +313,28 @@ void material_with_residual(const ReflectedPlanes& reflected, const float* metal
                             std::size_t count, const MaterialPlanes& materials) {
     std::size_t i = HWY_DYNAMIC_DISPATCH(material_all)(reflected, metallic, dielectric_f0, diffuse_tolerance,
                                                        coupling, count, materials);
-    for (; i < count; ++i) {
-        const auto material =
-            material_with_residual<float>(reflected_at(reflected, i), metallic[i], dielectric_f0,
-                                          colour_at(diffuse_tolerance, i), coupling);
-        for (std::size_t c = 0; c < 3; ++c) {
-            materials.base_color[c][i] = material.base_color[static_cast<int>(c)];
-            materials.dielectric_f0[c][i] = material.dielectric_f0[static_cast<int>(c)];
-        }
-    }
+    for (; i < count; ++i)
+        store(material_with_residual<float>(reflected_at(reflected, i), metallic[i], dielectric_f0,
+                                            colour_at(diffuse_tolerance, i), coupling),
+              materials, i);
+}
+
+void material_without_residual(const ReflectedPlanes& reflected, const float* metallic, float dielectric_f0,
+                               float largest_f0, DiffuseCoupling coupling, std::size_t count,
+                               const MaterialPlanes& materials) {
+    std::size_t i = HWY_DYNAMIC_DISPATCH(grey_material_all)(reflected, metallic, dielectric_f0, largest_f0,
+                                                            coupling, count, materials);
+    for (; i < count; ++i)
+        store(material_without_residual<float>(reflected_at(reflected, i), metallic[i], dielectric_f0,
+                                               largest_f0, coupling),
+              materials, i);
+}
+
+void metallic_of_alike(const ReflectedPlanes& reflected, const float* metallic, const float* confidence,
+                       std::span<const std::ptrdiff_t> apart, std::size_t count, float* means) {
+    std::size_t i = HWY_DYNAMIC_DISPATCH(alike_all)(reflected, metallic, confidence, apart, count, means);
+    for (; i < count; ++i)
+        means[i] = alike_of_one(static_cast<std::ptrdiff_t>(i), reflected, metallic, confidence, apart);
 }
 
 }  // namespace pbr

@@ -135,6 +135,43 @@ TEST(Gloss, CodesAndFloatsOfAPictureMakeTheSameSet) {
     }
 }
 
+TEST(Gloss, ExponentsOfLargeMapsAreThoseOfTheirTexelsAndBetweenThem) {
+    // Many more texels than a 16-bit map has codes; and a map of half the size, bilinear and repeated.
+    constexpr int kWidth = 640, kHeight = 512;
+    TextureParams params = defaults();
+    params.model = Model::blinn_phong;
+    params.gloss = "set_power.png";
+    params.gloss_is = GlossIs::power;
+    params.power_scale = 1000;
+    for (const int shrink : {1, 2}) {
+        const int width = kWidth / shrink, height = kHeight / shrink;
+        Inputs inputs;
+        inputs["diffuse"] = source(kWidth, kHeight, 3, 0, [](int, int) { return Rgba{.3f, .3f, .3f, 1}; });
+        inputs["specular"] = source(1, 1, 3, 0, [](int, int) { return Rgba{.05f, .05f, .05f, 1}; });
+        inputs["gloss"] = source(width, height, 1, 16, [](int x, int y) {
+            return Rgba{static_cast<float>((x * 97 + y * 31) % 1009) / 1009, 0, 0, 0};
+        });
+        const Image& gloss = inputs["gloss"].image;
+        const auto stored = [&](int x, int y) {
+            return static_cast<double>(*gloss.texel(0, 0, (y + height) % height, (x + width) % width));
+        };
+        Context context(1, {});
+        const Product product = bake(params, inputs, context);
+        const auto orm = std::ranges::find(product.images, "orm", &Image::name);
+        ASSERT_NE(orm, product.images.end());
+        for (int i = 0; i < kWidth * kHeight; i += 61) {
+            const int x = i % kWidth, y = i / kWidth;
+            const double u = (x + .5) / shrink - .5, v = (y + .5) / shrink - .5;
+            const int left = static_cast<int>(std::floor(u)), top = static_cast<int>(std::floor(v));
+            const double fx = u - left, fy = v - top;
+            const double value = (1 - fy) * ((1 - fx) * stored(left, top) + fx * stored(left + 1, top)) +
+                                 fy * ((1 - fx) * stored(left, top + 1) + fx * stored(left + 1, top + 1));
+            ASSERT_NEAR(orm->texel(0, 0, y, x)[1], std::pow(2 / (1000 * value + 2), .25), 1e-6)
+                << x << " " << y;
+        }
+    }
+}
+
 TEST(Gloss, MapsShowEnergyAndColourThatALobeCannotKeep) {
     TextureParams params = defaults();
     params.model = Model::blinn_phong;

@@ -11,6 +11,7 @@
 #include "pbr/ibl/dfg.hpp"
 #include "pbr/legacy/exponent.hpp"
 #include "pbr/legacy/phong.hpp"
+#include "pbr/numerics/sequence.hpp"
 
 namespace pbr {
 namespace {
@@ -73,6 +74,30 @@ TEST(LegacyEnergy, SolvedF0ReflectsWhatWasAskedFor) {
     EXPECT_EQ(f0_from_mean_albedo(std::numeric_limits<double>::quiet_NaN(), {1, 0}, Scattering::single).f0,
               0);
     EXPECT_EQ(f0_from_mean_albedo(-1, {1, 0}, Scattering::single).f0, 0);
+}
+
+TEST(LegacyEnergy, ManyLobesAreSolvedAsOneIs) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    std::vector<float> albedo{0,      -1,        std::numeric_limits<float>::quiet_NaN(), kInfinity, 1,
+                              1e-30f, 1.0000005f};
+    while (albedo.size() < 5003)
+        albedo.push_back(static_cast<float>(std::pow(random_unit(1, albedo.size()), 3)) * 1.1f);
+    std::vector<float> perceptual_roughness, f0(albedo.size());
+    for (std::size_t i = 0; i < albedo.size(); ++i)
+        perceptual_roughness.push_back(i % 50 < 2 ? static_cast<float>(i % 50)
+                                                  : static_cast<float>(random_unit(2, i)));
+    std::vector<std::uint8_t> clamped(albedo.size());
+    for (const Scattering scattering : {Scattering::single, Scattering::multiple})
+        for (const std::size_t count : {std::size_t{1}, std::size_t{37}, albedo.size()}) {
+            f0_from_mean_albedo(albedo.data(), perceptual_roughness.data(), scattering, count, f0.data(),
+                                clamped.data());
+            for (std::size_t i = 0; i < count; ++i) {
+                const MeanAlbedo lobe = mean_albedo_ggx(static_cast<double>(perceptual_roughness[i]));
+                const SolvedF0 one = f0_from_mean_albedo(static_cast<double>(albedo[i]), lobe, scattering);
+                ASSERT_EQ(f0[i], static_cast<float>(one.f0)) << albedo[i] << " " << perceptual_roughness[i];
+                ASSERT_EQ(clamped[i], one.clamped) << albedo[i] << " " << perceptual_roughness[i];
+            }
+        }
 }
 
 TEST(LegacyEnergy, BlinnPhongKeepsItsMeanAlbedo) {

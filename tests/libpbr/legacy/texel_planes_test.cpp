@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -67,25 +68,106 @@ TEST(TexelPlanes, EstimatesAreThoseOfOneTexel) {
             }
 }
 
+/// Room for materials.
+struct Materials {
+    explicit Materials(std::size_t count) {
+        for (auto* colours : {&base, &dielectric})
+            for (auto& plane : *colours) plane.resize(count);
+    }
+    MaterialPlanes planes() {
+        return {{base[0].data(), base[1].data(), base[2].data()},
+                {dielectric[0].data(), dielectric[1].data(), dielectric[2].data()}};
+    }
+    std::array<std::vector<float>, 3> base, dielectric;
+};
+
 TEST(TexelPlanes, MaterialsAreThoseOfOneTexel) {
     for (const std::size_t count : {1, 37, 3000})
         for (const DiffuseCoupling coupling : {none, fresnel}) {
             const Texels texels(count, false);
-            std::array<std::vector<float>, 3> base, residual;
-            for (auto* colours : {&base, &residual})
-                for (auto& plane : *colours) plane.resize(count);
+            Materials materials(count);
             material_with_residual({Texels::planes(texels.diffuse), Texels::planes(texels.f0)},
                                    texels.metallic.data(), .04f, Texels::planes(texels.step), coupling, count,
-                                   {{base[0].data(), base[1].data(), base[2].data()},
-                                    {residual[0].data(), residual[1].data(), residual[2].data()}});
+                                   materials.planes());
             for (std::size_t i = 0; i < count; ++i) {
                 const auto one = material_with_residual<float>(
                     {Texels::at(texels.diffuse, i), Texels::at(texels.f0, i)}, texels.metallic[i], .04f,
                     Texels::at(texels.step, i), coupling);
-                ASSERT_EQ(Texels::at(base, i), one.base_color) << i;
-                ASSERT_EQ(Texels::at(residual, i), one.dielectric_f0) << i;
+                ASSERT_EQ(Texels::at(materials.base, i), one.base_color) << i;
+                ASSERT_EQ(Texels::at(materials.dielectric, i), one.dielectric_f0) << i;
             }
         }
+}
+
+TEST(TexelPlanes, GreyMaterialsAreThoseOfOneTexel) {
+    for (const std::size_t count : {1, 37, 3000})
+        for (const DiffuseCoupling coupling : {none, fresnel})
+            for (const float largest : {0.f, .08f, 1.f}) {
+                const Texels texels(count, false);
+                Materials materials(count);
+                material_without_residual({Texels::planes(texels.diffuse), Texels::planes(texels.f0)},
+                                          texels.metallic.data(), .04f, largest, coupling, count,
+                                          materials.planes());
+                for (std::size_t i = 0; i < count; ++i) {
+                    const auto one = material_without_residual<float>(
+                        {Texels::at(texels.diffuse, i), Texels::at(texels.f0, i)}, texels.metallic[i], .04f,
+                        largest, coupling);
+                    ASSERT_EQ(Texels::at(materials.base, i), one.base_color) << i;
+                    ASSERT_EQ(Texels::at(materials.dielectric, i), one.dielectric_f0) << i;
+                }
+            }
+}
+
+TEST(TexelPlanes, MetallicComesFromTexelsThatLookAlike) {
+    // A row of two materials, the first a sure metal, the second a sure dielectric; unsure where they meet.
+    const std::vector<float> diffuse{0, 0, 0, .5f, .5f, .5f}, f0{.6f, .6f, .6f, .04f, .04f, .04f};
+    const std::vector<float> metallic{1, 1, .5f, .5f, 0, 0}, confidence{1, 1, 0, 0, 1, 1};
+    const auto planes = [](const std::vector<float>& grey) {
+        return ColourPlanes{&grey[2], &grey[2], &grey[2]};
+    };
+    const std::vector<std::ptrdiff_t> apart{-2, -1, 1, 2};
+    std::vector<float> means(2);
+    metallic_of_alike({planes(diffuse), planes(f0)}, &metallic[2], &confidence[2], apart, 2, means.data());
+    // Of the first: two metals of its colours, its own .5, and a dielectric 3 (.5^2 + .56^2) away.
+    const double alike = .0025 / (.0025 + 3 * (.25 + .56 * .56)), other = alike * alike;
+    EXPECT_NEAR(means[0], (2 + .5e-3) / (2 + other + 1e-3), 1e-6);
+    EXPECT_NEAR(means[1], (other + .5e-3) / (2 + other + 1e-3), 1e-6);
+    metallic_of_alike({planes(diffuse), planes(f0)}, &metallic[2], &confidence[2], {}, 2, means.data());
+    EXPECT_EQ(means, std::vector<float>({.5f, .5f}));
+}
+
+TEST(TexelPlanes, MeansOfAlikeTexelsAreThoseOfDoublePrecision) {
+    constexpr std::ptrdiff_t kPitch = 104, kRows = 5, kFirst = 2 * kPitch + 2;
+    const Texels texels(kPitch * kRows, false);
+    const std::vector<float> confidence = numbers(10, kPitch * kRows, false);
+    std::vector<std::ptrdiff_t> apart;
+    for (std::ptrdiff_t dy = -2; dy <= 2; ++dy)
+        for (std::ptrdiff_t dx = -2; dx <= 2; ++dx)
+            if (dx != 0 || dy != 0) apart.push_back(dy * kPitch + dx);
+    const auto from = [](const std::array<std::vector<float>, 3>& colours) {
+        return ColourPlanes{&colours[0][kFirst], &colours[1][kFirst], &colours[2][kFirst]};
+    };
+    for (const std::size_t count : {1, 7, 100}) {
+        std::vector<float> means(count);
+        metallic_of_alike({from(texels.diffuse), from(texels.f0)}, &texels.metallic[kFirst],
+                          &confidence[kFirst], apart, count, means.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t here = kFirst + i;
+            double sum = 1e-3 * static_cast<double>(texels.metallic[here]), weights = 1e-3;
+            for (const std::ptrdiff_t offset : apart) {
+                const std::size_t there = here + static_cast<std::size_t>(offset);
+                double far = 0;
+                for (const auto* colours : {&texels.diffuse, &texels.f0})
+                    for (const std::vector<float>& plane : *colours)
+                        far +=
+                            std::pow(static_cast<double>(plane[there]) - static_cast<double>(plane[here]), 2);
+                const double weight = static_cast<double>(confidence[there]) / std::pow(1 + far / .0025, 2);
+                sum += weight * static_cast<double>(texels.metallic[there]);
+                weights += weight;
+            }
+            EXPECT_NEAR(means[i], sum / weights, 1e-5 * sum / weights) << i;
+        }
+    }
 }
 
 }  // namespace

@@ -6,6 +6,9 @@
 // min(1, 50 * .33 * 3 f0) (f90_from_f0 of grey), and, where asked, Kulla-Conty's lobe for what bounces
 // between facets. Without Frostbite's f90 a lobe never reflects less than 1/21, which dim legacy lobes do.
 
+#include <cstddef>
+#include <cstdint>
+
 namespace pbr {
 
 /// Cosine-weighted means of DirectionalAlbedo over the hemisphere, 2 integral E mu dmu and the same of Fc.
@@ -36,5 +39,11 @@ struct SolvedF0 {
 /// either side of the f0 where f90 reaches 1). mean_specular_albedo of it is within 1e-6 relative of
 /// mean_albedo, unless clamped.
 SolvedF0 f0_from_mean_albedo(double mean_albedo, const MeanAlbedo& lobe, Scattering scattering);
+
+/// The same of `count` lobes, each with its mean albedo and perceptual roughness, in float: bit for bit, on
+/// every CPU, what f0_from_mean_albedo of mean_albedo_ggx gives. clamped is 0 or 1. Outputs may not overlap
+/// inputs.
+void f0_from_mean_albedo(const float* mean_albedo, const float* perceptual_roughness, Scattering scattering,
+                         std::size_t count, float* f0, std::uint8_t* clamped);
 
 }  // namespace pbr

@@ -227,6 +227,9 @@ MetallicMaterial<T> material_with_residual(const Reflected<T>& reflected, T meta
     return material;
 }
 
+/// How often material_without_residual goes from base colour to dielectric_f0 and back.
+inline constexpr int kGreyTurns = 3;
+
 /// The same for targets that hold a grey dielectric_f0 up to `largest_f0`, 0 for none but the prior's own:
 /// base colour by least squares of diffuse and f0, every channel alike. Continuous in all arguments.
 template <class T>
@@ -234,8 +237,7 @@ MetallicMaterial<T> material_without_residual(const Reflected<T>& reflected, T m
                                               T largest_f0, DiffuseCoupling coupling) {
     const T rest = T(1) - metallic, weight = rest * rest + metallic * metallic;
     MetallicMaterial<T> material{Vec3<T>(0), metallic, Vec3<T>(dielectric_f0)};
-    constexpr int kTurns = 3;
-    for (int turn = 0; turn < kTurns; ++turn) {
+    for (int turn = 0; turn < kGreyTurns; ++turn) {
         const T f = material.dielectric_f0.x;
         const T left = coupling == DiffuseCoupling::fresnel ? T(1) - f : T(1);
         T unexplained = 0;
