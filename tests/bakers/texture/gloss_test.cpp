@@ -156,6 +156,7 @@ TEST(Gloss, ExponentsOfLargeMapsAreThoseOfTheirTexelsAndBetweenThem) {
             return static_cast<double>(*gloss.texel(0, 0, (y + height) % height, (x + width) % width));
         };
         Context context(1, {});
+        context.set_pixels({PixelType::float32});
         const Product product = bake(params, inputs, context);
         const auto orm = std::ranges::find(product.images, "orm", &Image::name);
         ASSERT_NE(orm, product.images.end());
