@@ -31,8 +31,8 @@ void print_plan(const run::RunReport& report) {
     for (const run::BakeReport& bake : report.bakes) {
         std::printf("%s (%s)\n", bake.bake->name.c_str(), bake.bake->kind.c_str());
         for (const job::Source& source : bake.bake->sources)
-            std::printf("  reads   %s\n",
-                        source.file.empty() ? source.read.path.c_str() : source.file.c_str());
+            if (source.file.empty()) std::printf("  reads   %s\n", source.read.path.c_str());
+        for (const auto& file : bake.reads) std::printf("  reads   %s\n", file.c_str());
         for (const auto& file : bake.writes) std::printf("  writes  %s\n", file.c_str());
     }
     for (const auto& file : report.manifests) std::printf("writes  %s\n", file.c_str());

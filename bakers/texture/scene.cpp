@@ -222,12 +222,14 @@ class Scene {
 
     /// Buffers that held pictures alone go, and of others what held them.
     void drop_unused_bytes() {
-        const std::size_t before = member(document(), "bufferViews").size();
+        const JsonFields root(document(), source_.name);
+        const std::vector<JsonFields> views = root.objects("bufferViews"), all = root.objects("buffers");
+        for (const JsonFields& view : views) parse::gltf_view(view, all);  // named as the source has them
         keep("bufferViews", view_users(document()));
         std::vector<Json*> buffers;
         if (document().contains("bufferViews"))
             for (Json& view : document()["bufferViews"]) buffers.push_back(&view["buffer"]);
-        is_cut_ = member(document(), "bufferViews").size() < before;
+        is_cut_ = buffers.size() < views.size();
         if (!is_cut_) return;
         if (std::ranges::none_of(buffers, [](const Json* index) { return *index == 0; })) gltf_.chunk = {};
         keep("buffers", buffers);
