@@ -7,6 +7,7 @@
 #include "bakers/job/json_text.hpp"
 #include "bakers/run/atomic_file.hpp"
 #include "bakers/run/run.hpp"
+#include "bakers/verify/run_page.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 
@@ -20,6 +21,7 @@ const std::vector<Option>& run_options() {
         {"threads", "N", "Worker threads; the bytes are the same at any number. [default: all processors]"},
         {"dry-run", "", "Shows what would be read and written, and stops.", true},
         {"report", "FILE", "Writes times, memory, evaluations and warnings as JSON."},
+        {"html", "FILE", "Writes a page of figures, curves, times and warnings."},
         {"depfile", "FILE", "Writes a dependency file in gcc's format."},
         {"json", "", "Prints the report on stdout.", true},
         {"quiet", "", "Shows errors alone.", true},
@@ -43,6 +45,7 @@ ExitCode write_extras(const run::RunReport& report, const Given& given) {
     try {
         if (const auto file = given.find("report"))
             run::write_atomically(*file, job::to_text(run::report_json(report)));
+        if (const auto file = given.find("html")) run::write_atomically(*file, verify::run_page(report));
         if (const auto file = given.find("depfile")) run::write_atomically(*file, run::depfile_text(report));
         return report.code;
     } catch (const Error& error) {
