@@ -22,11 +22,6 @@ std::string number_text(double number) {
     return stream.str();
 }
 
-/// "X.light.json" for a product X.exr.
-fs::path document_file(const job::Bake& bake, const std::string& suffix) {
-    return fs::path(bake.file).stem().string() + "." + suffix;
-}
-
 /// Whether a document is the bake's product itself, as its format has no pictures.
 bool is_main_document(const job::Bake& bake, const std::string& suffix) {
     return find_format(bake.format)->is_document() && suffix == bake.format;
@@ -41,7 +36,7 @@ std::vector<fs::path> outputs_of(const job::Job& job, const job::Bake& bake, con
     if (bake.baker->documents)
         for (const std::string& suffix : bake.baker->documents(bake.json, known))
             if (!is_main_document(bake, suffix))
-                files.push_back((job.output / document_file(bake, suffix)).lexically_normal());
+                files.push_back((job.output / job::document_file(bake, suffix)).lexically_normal());
     if (job.record == job::Record::sidecar) files.push_back(sidecar_file(job, bake));
     return files;
 }
@@ -282,7 +277,7 @@ class BakeRun {
 
     void add_document(const Document& document) {
         const std::string text = document.json.is_null() ? document.text : job::to_text(document.json);
-        const fs::path file = document_file(bake_, document.suffix);
+        const fs::path file = job::document_file(bake_, document.suffix);
         for (const job::Bake& other : job_.bakes)
             if (other.file == file && !(&other == &bake_ && is_main(document.suffix)))
                 throw Error(ExitCode::unwritable_output, file.string(),
@@ -302,7 +297,19 @@ class BakeRun {
         return file;
     }
 
+    /// What a source's own files lead to is known to no job.
+    void keep_sources() const {
+        for (const Output& output : outputs_)
+            for (const fs::path& read : report_.reads) {
+                std::error_code error;  // of a file that isn't there
+                if (fs::equivalent(job_.output / output.file, read, error))
+                    throw Error(ExitCode::unwritable_output, (job_.output / output.file).string(),
+                                "is a source of this bake too; choose another name or output folder");
+            }
+    }
+
     void write() {
+        keep_sources();
         report_.entry =
             entry(job_, bake_, sources_, inputs_, product_, certificate_, report_.bake_evaluations, outputs_);
         report_.writes.clear();

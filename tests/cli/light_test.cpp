@@ -43,6 +43,15 @@ TEST(LightCommand, WritesEitherDocumentAsProductWithItsRecord) {
     }
 }
 
+TEST(LightCommand, NeverReplacesItsSource) {
+    const TemporaryFolder folder;
+    const fs::path source = folder.write("in.json", kLights);
+    const Outcome outcome = run_program({"light", source, "-o", source.parent_path() / "in.gltf"});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("would write in.json over the source of bake \"in\""));
+    EXPECT_EQ(job::read_text(source), kLights);
+}
+
 TEST(LightCommand, WritesAPageWithTheCurvesOfItsCertificate) {
     const TemporaryFolder folder;
     const fs::path source = folder.write("in.json", kLights), out = source.parent_path();

@@ -541,6 +541,17 @@ TEST(MaterialsScene, RefusesViewsBeyondTheirBuffers) {
     }
 }
 
+TEST(MaterialsScene, NeverReplacesABufferOfItsSource) {
+    const Embedded embedded;
+    const Scene scene("s.gltf", embedded.json("", R"(, "uri": "out.bin")"));
+    scene.add("out.bin", embedded.buffer());
+    const Outcome outcome = scene.bake("out.gltf");
+    EXPECT_EQ(outcome.code, 5);
+    EXPECT_THAT(outcome.err, HasSubstr("out.bin: is a source of this bake too"));
+    EXPECT_EQ(job::read_text(scene.path("out.bin")), embedded.buffer());
+    EXPECT_FALSE(fs::exists(scene.path("out.gltf")));
+}
+
 TEST(MaterialsScene, TellsBeforehandWhatItWillKeep) {
     const Scene scene("s.gltf", scene_gltf());
     for (const char* name : {"old.png", "keep.png"}) scene.add(name, png());
