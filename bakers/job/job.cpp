@@ -289,7 +289,9 @@ std::vector<Mistake> overwrites(const Job& job) {
     keep(job.file, "the job file");
     for (const Bake& bake : job.bakes)
         for (const Source& source : bake.sources)
-            keep(source.file, "the source of bake \"" + bake.name + "\"");
+            if (bake.parts.empty() ||
+                &source == &bake.sources.front())  // the others are other bakes' products
+                keep(source.file, "the source of bake \"" + bake.name + "\"");
 
     std::vector<Mistake> mistakes;
     const auto write = [&](const std::string& file, const std::string& pointer) {
@@ -299,13 +301,16 @@ std::vector<Mistake> overwrites(const Job& job) {
                                              "; choose another name, format or output folder"});
     };
     for (std::size_t i = 0; i < job.bakes.size(); ++i) {
-        const std::string& file = job.bakes[i].file;
+        const Bake& bake = job.bakes[i];
         const std::string pointer = "/bakes/" + std::to_string(i) + "/name";
-        write(file, pointer);
-        if (job.record == Record::sidecar) write(file + ".json", pointer);
-        if (job.bakes[i].baker && job.bakes[i].baker->images)
-            for (const std::string& image : job.bakes[i].baker->images(job.bakes[i].json))
-                write(image_file(job.bakes[i], image), pointer);
+        write(bake.file, pointer);
+        if (job.record == Record::sidecar) write(bake.file + ".json", pointer);
+        if (bake.baker && bake.baker->images)
+            for (const std::string& image : bake.baker->images(bake.json))
+                write(image_file(bake, image), pointer);
+        if (bake.baker && bake.baker->documents)
+            for (const std::string& suffix : bake.baker->documents(bake.json, {}))
+                if (document_file(bake, suffix) != bake.file) write(document_file(bake, suffix), pointer);
     }
     if (job.record == Record::manifest) write("manifest.json", "/output");
     return mistakes;
@@ -316,6 +321,10 @@ std::vector<Mistake> overwrites(const Job& job) {
 std::string image_file(const Bake& bake, const std::string& image) {
     std::string file = fs::path(bake.file).stem().string();
     return file.append("_").append(image).append(".").append(picture_format(bake.format).name);
+}
+
+std::string document_file(const Bake& bake, const std::string& suffix) {
+    return fs::path(bake.file).stem().string() + "." + suffix;
 }
 
 JobError::JobError(ExitCode code, std::vector<Mistake> mistakes)

@@ -43,6 +43,8 @@ struct Bake {
 
 /// "X_normal.png" for image "normal" of a bake whose first file is X.png or the document X.gltf.
 std::string image_file(const Bake& bake, const std::string& image);
+/// "X.light.json" for document "light.json" of a bake whose first file is X.exr.
+std::string document_file(const Bake& bake, const std::string& suffix);
 
 /// Where the record of what was baked goes.
 enum class Record {

@@ -34,7 +34,7 @@ void clean_falloff(pbr::Falloff& law, int line, std::vector<Diagnostic>& flags) 
     if (law.range <= 0) {
         law.range = 0;
         law.begin = 0;
-        flag(flags, Severity::warning, "range_zero", line, "has a range of 0: it lights nothing");
+        flag(flags, Severity::warning, "range_zero", line, "has a range of 0 or less: it lights nothing");
     } else if (law.range >= std::numeric_limits<float>::max()) {
         flag(flags, Severity::note, "range_unlimited", line,
              "has a range of FLT_MAX or more: nothing ends it");

@@ -9,16 +9,19 @@
 
 namespace pbrbake::parse {
 
+void EntityValues::refuse(std::string_view key, const char* allowed) const {
+    throw malformed(file_, entity_.line,
+                    "found " + parse::quoted(entity_.value(key)) + " as " + parse::quoted(key) +
+                        " of the entity that begins here; allowed: " + allowed);
+}
+
 std::vector<double> EntityValues::numbers(std::string_view key) const {
     std::vector<double> list;
     std::string_view rest = trimmed(entity_.value(key));
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
         const auto value = finite_number(rest.substr(0, end));
-        if (!value)
-            throw malformed(file_, entity_.line,
-                            "found " + parse::quoted(entity_.value(key)) + " as " + parse::quoted(key) +
-                                " of the entity that begins here; allowed: finite numbers");
+        if (!value) refuse(key, "finite numbers");
         list.push_back(*value);
         rest = trimmed(rest.substr(end));
     }
@@ -32,7 +35,9 @@ double EntityValues::number(std::string_view key, double fallback) const {
 
 glm::dvec3 EntityValues::vector(std::string_view key, const glm::dvec3& fallback) const {
     const std::vector<double> list = numbers(key);
-    return list.size() == 3 ? glm::dvec3(list[0], list[1], list[2]) : fallback;
+    if (list.empty()) return fallback;
+    if (list.size() != 3) refuse(key, "three numbers");
+    return {list[0], list[1], list[2]};
 }
 
 LegacyLight EntityValues::light(std::size_t count) const {

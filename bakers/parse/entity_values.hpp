@@ -22,7 +22,7 @@ class EntityValues {
     std::vector<double> numbers(std::string_view key) const;
     /// The first of them.
     double number(std::string_view key, double fallback) const;
-    /// A vector of three; the fallback where there aren't as many.
+    /// A vector of three; the fallback where the key is absent or empty.
     glm::dvec3 vector(std::string_view key, const glm::dvec3& fallback) const;
 
     const MapEntity& entity() const { return entity_; }
@@ -30,6 +30,8 @@ class EntityValues {
     LegacyLight light(std::size_t count) const;
 
   private:
+    [[noreturn]] void refuse(std::string_view key, const char* allowed) const;
+
     const MapEntity& entity_;
     const std::string& file_;
 };

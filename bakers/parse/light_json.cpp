@@ -1,6 +1,10 @@
 // The plain JSON format: {"unit": "relative", "length_m": 1, "lights": [{"type": "point", …}]}. README.md of
 // bakers/light describes it.
 
+#include <algorithm>
+#include <array>
+#include <span>
+
 #include "bakers/parse/json_fields.hpp"
 #include "bakers/parse/light_formats.hpp"
 #include "bakers/parse/light_plain.hpp"
@@ -95,6 +99,32 @@ pbr::SpotFalloff read_spot(const JsonFields& light) {
     return spot;
 }
 
+/// Members that describe a falloff, of a light or of an object in it.
+constexpr std::array<std::string_view, 9> kFalloffMembers{
+    "constant",  "constant_attenuation",  "exponent", "linear", "linear_attenuation",
+    "quadratic", "quadratic_attenuation", "range",    "window"};
+constexpr std::array<std::string_view, 17> kLightMembers{
+    "attenuation",   "color",     "colour", "direction", "falloff",  "height",
+    "inner_deg",     "intensity", "name",   "outer_deg", "position", "radius",
+    "spot_exponent", "spot_law",  "type",   "unit",      "width"};
+
+/// A misspelt member would change a light unseen.
+void tell_unread(const JsonFields& fields, std::vector<Diagnostic>& diagnostics) {
+    const auto tell = [&](const Json& members, std::span<const std::string_view> known,
+                          const std::string& where) {
+        for (const auto& [key, value] : members.items())
+            if (std::ranges::find(known, key) == known.end() &&
+                std::ranges::find(kFalloffMembers, key) == kFalloffMembers.end())
+                diagnostics.push_back({Severity::warning, "unread", 0,
+                                       "has " + parse::quoted(key) + where + ", which isn't read"});
+    };
+    constexpr std::array<std::string_view, 1> kKind{"kind"};
+    tell(fields.json(), kLightMembers, "");
+    for (const std::string key : {"falloff", "attenuation"})
+        if (fields.has(key) && fields.json()[key].is_object())
+            tell(fields.json()[key], kKind, " in its " + key);
+}
+
 LegacyLight read_light(const JsonFields& fields, LightUnit file_unit, ColourEncoding encoding,
                        std::size_t i) {
     LegacyLight light;
@@ -119,6 +149,7 @@ LegacyLight read_light(const JsonFields& fields, LightUnit file_unit, ColourEnco
     if (light.type != LightType::directional && light.type != LightType::ambient)
         light.falloff = read_falloff(fields, light.unit);
     if (light.type == LightType::spot) light.spot = read_spot(fields);
+    tell_unread(fields, light.diagnostics);
     return light;
 }
 

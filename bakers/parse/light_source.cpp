@@ -16,13 +16,14 @@ namespace {
 constexpr double kWhite = 255;
 constexpr double kUnit_m = .01905;  ///< 1/16 foot
 
-/// Colour and brightness of "r g b brightness", or of the second four of eight; false where the key has none
-/// or negative ones.
+/// Colour and brightness of "r g b brightness", or of the second four of eight; false where the key has none,
+/// negative ones, or a count that vrad doesn't know.
 bool read_brightness(const EntityValues& values, std::string_view key, LegacyLight& light) {
     std::vector<double> list = values.numbers(key);
     if (list.size() == 8) list.erase(list.begin(), list.begin() + 4);
-    if (list.empty() || *std::min_element(list.begin(), list.end()) < 0) return false;
-    light.colour = list.size() < 3 ? glm::dvec3(list[0]) : glm::dvec3(list[0], list[1], list[2]);
+    if (list.size() != 1 && list.size() != 3 && list.size() != 4) return false;
+    if (*std::min_element(list.begin(), list.end()) < 0) return false;
+    light.colour = list.size() == 1 ? glm::dvec3(list[0]) : glm::dvec3(list[0], list[1], list[2]);
     light.colour /= kWhite;
     light.intensity = list.size() > 3 ? list[3] / kWhite : 1;
     light.encoding = ColourEncoding::gamma_2_2;
@@ -119,7 +120,8 @@ void add_light(const EntityValues& values, const Targets& targets, LightFile& fi
         if (values.entity().has("_light"))
             light.diagnostics.push_back(
                 {Severity::warning, "light_illegal", light.line,
-                 "has a negative number in its _light, for which vrad leaves it dark"});
+                 "has a negative number in its _light, or a count that isn't 1, 3, 4 or 8, which vrad "
+                 "takes for no light"});
     }
     light.intensity *= values.number("_lightscaleHDR", 1);
     const auto target = targets.towards(values.entity(), light.position);

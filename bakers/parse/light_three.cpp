@@ -7,6 +7,7 @@
 #include "bakers/parse/json_fields.hpp"
 #include "bakers/parse/light_formats.hpp"
 #include "bakers/parse/scene_transform.hpp"
+#include "bakers/parse/text.hpp"
 
 namespace pbrbake::parse {
 namespace {
@@ -69,6 +70,10 @@ class Reader {
             light.height = fields.number({"height"}, 10);
             light.falloff = {0, 0, 1};
         } else {
+            if (type.ends_with("Light") || type == "LightProbe")
+                file_.diagnostics.push_back(
+                    {Severity::warning, "light_unread", 0,
+                     parse::quoted(light.name) + " is a " + parse::quoted(type) + ", which isn't read"});
             return;
         }
         light.intensity = fields.number({"intensity"}, 1);

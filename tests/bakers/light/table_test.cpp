@@ -49,11 +49,10 @@ struct Row {
 
 TEST(LightTable, HoldsTheResidualOfEveryLaw) {
     const std::string document = readme();
-    const std::array<Row, 19> rows{{
-        {"1 / d²", "glTF, Quake `delay` 2, three.js, OpenGEX", "a.json",
-         plain(R"("falloff": "inverse_square")")},
+    const std::array<Row, 21> rows{{
+        {"1 / d²", "glTF, Quake `delay` 2, three.js", "a.json", plain(R"("falloff": "inverse_square")")},
         {"1 / (1 + .04 d²)", "COLLADA, Source, plain", "a.json", plain(R"("attenuation": [1, 0, 0.04])")},
-        {"1 / d", "Quake `delay` 1, COLLADA, Source, OpenGEX", "a.json", plain(R"("falloff": "inverse")")},
+        {"1 / d", "Quake `delay` 1, COLLADA, Source", "a.json", plain(R"("falloff": "inverse")")},
         {"1 / (1 + .1 d)", "COLLADA, Source, OpenGEX", "a.json", plain(R"("attenuation": [1, 0.1, 0])")},
         {"1 / (d + d²)", "COLLADA, Source, OpenGEX", "a.json", plain(R"("attenuation": [0, 1, 1])")},
         {"1 / (1 + .7 d + 1.8 d²)", "COLLADA, Source, OpenGEX", "a.json",
@@ -78,7 +77,11 @@ TEST(LightTable, HoldsTheResidualOfEveryLaw) {
         {"1 − (d − 100) / 200 from 100 on", "OpenGEX `linear`", "a.ogex",
          opengex(
              "Atten () {Param (attrib = \"begin\") {float {100}} Param (attrib = \"end\") {float {300}}}")},
-        {"50² / d² times 1 − d / 300", "OpenGEX, two curves", "a.ogex",
+        {"50² / d², at most 1", "OpenGEX `inverse_square`, 3ds Max", "a.ogex",
+         opengex("Atten (curve = \"inverse_square\") {Param (attrib = \"scale\") {float {50}}}")},
+        {"50 / d, at most 1", "OpenGEX `inverse`, 3ds Max", "a.ogex",
+         opengex("Atten (curve = \"inverse\") {Param (attrib = \"scale\") {float {50}}}")},
+        {"50² / d², at most 1, times 1 − d / 300", "OpenGEX, two curves", "a.ogex",
          opengex("Atten (curve = \"inverse_square\") {Param (attrib = \"scale\") {float {50}}} Atten () "
                  "{Param (attrib = "
                  "\"end\") {float {300}}}")},

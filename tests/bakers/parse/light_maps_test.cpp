@@ -190,6 +190,9 @@ TEST(SourceLights, NegativeNumbersAreNone) {
     const LegacyLight dark = source_light(std::string(kLight) + "\"_light\" \"255 255 255 -200\"");
     EXPECT_EQ(dark.intensity, 0);
     EXPECT_TRUE(has(dark.diagnostics, "light_illegal"));
+    const LegacyLight cut = source_light(std::string(kLight) + "\"_light\" \"255 255\"");
+    EXPECT_EQ(cut.intensity, 0);
+    EXPECT_TRUE(has(cut.diagnostics, "light_illegal"));
 }
 
 TEST(SourceLights, HdrNumbersGoFirst) {
@@ -231,6 +234,9 @@ TEST(MapEntities, SayWhereTheyBreak) {
     EXPECT_THAT(refusal_of_lights("}", "a.map"), HasSubstr("that none opened"));
     EXPECT_THAT(refusal_of_lights("{\n\"classname\" \"light\"\n\"light\" \"bright\"\n}", "a.map"),
                 HasSubstr("found 'bright' as 'light'"));
+    EXPECT_THAT(
+        refusal_of_lights("{\n\"classname\" \"light\"\n\"origin\" \"1 2\"\n}", "a.map"),
+        HasSubstr("a.map:1: found '1 2' as 'origin' of the entity that begins here; allowed: three numbers"));
     EXPECT_THAT(refusal_of_lights(std::string(100, '{'), "a.map"), HasSubstr("deeper than 64"));
 }
 

@@ -277,6 +277,29 @@ TEST(PlainLights, SayWhereTheyBreak) {
     EXPECT_THAT(refusal_of_lights("[1]", "a.json"), HasSubstr("no object"));
 }
 
+TEST(PlainLights, TellOfMembersThatNothingReads) {
+    const auto told = [](const char* members) {
+        const LightFile file = read(std::string(R"({"lights": [{)") + members + "}]}", "a.json");
+        std::string messages;
+        for (const Diagnostic& found : file.lights.front().diagnostics)
+            if (found.code == "unread") messages += found.message + "\n";
+        return messages;
+    };
+    EXPECT_EQ(told(R"("fallof": "linear", "range": 3)"), "has 'fallof', which isn't read\n");
+    EXPECT_EQ(told(R"("falloff": {"kind": "polynomial", "attenuation": [1, 0, 1]})"),
+              "has 'attenuation' in its falloff, which isn't read\n");
+    EXPECT_EQ(told(R"("type": "spot", "colour": [1, 1, 1], "attenuation": [1, 0, 1], "spot_law": "hard")"),
+              "");
+}
+
+TEST(ThreeLightsFile, TellsOfLightsThatAreNotRead) {
+    const LightFile file = read(
+        R"({"metadata": {"version": 4.5, "type": "Object"}, "object": {"type": "LightProbe", "name": "sky"}})",
+        "a.json");
+    EXPECT_TRUE(file.lights.empty());
+    EXPECT_TRUE(has(file.diagnostics, "light_unread"));
+}
+
 TEST(GltfLights, SayWhereTheyBreak) {
     const std::string head =
         R"({"asset": {"version": "2.0"}, "extensions": {"KHR_lights_punctual": {"lights": [)";
