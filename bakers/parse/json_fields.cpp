@@ -126,7 +126,8 @@ std::optional<std::size_t> JsonFields::index(std::string_view key, std::size_t c
     if (!has(key)) return {};
     const Json& value = (*json_)[std::string(key)];
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count)
-        refuse(key, "a whole number below " + std::to_string(count));
+        refuse(key, count == 0 ? "nothing, as there is none to refer to"
+                               : "a whole number below " + std::to_string(count));
     return value.get<std::size_t>();
 }
 

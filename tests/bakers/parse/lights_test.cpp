@@ -313,7 +313,7 @@ TEST(GltfLights, SayWhereTheyBreak) {
     EXPECT_THAT(
         refusal_of_lights(head + R"(]}}, "nodes": [{"extensions": {"KHR_lights_punctual": {"light": 3}}}]})",
                           "a.gltf"),
-        HasSubstr("below 0"));
+        HasSubstr("none to refer to"));
     using namespace std::string_literals;
     EXPECT_THAT(refusal_of_lights("glTF\2\0\0\0\x20\0\0\0\x40\0\0\0JSON{}"s, "a.glb"),
                 HasSubstr("claims 32 bytes in all, but has 22"));
