@@ -183,7 +183,7 @@ class SetBake {
                 level.first = band.begin;
                 level.rows = band.end - band.begin;
             }
-            for (int y = band.begin; y < band.end; ++y) fill_row(*above, y, level);
+            for (int y = band.begin; y < band.end; ++y) fill_smaller(*above, y, level);
             for (int y = band.begin; y < band.own_end; ++y) store_row(level, y, l);
             above = &level;
         }
@@ -194,7 +194,7 @@ class SetBake {
         MapLevel level = level_below(above, 1, side_below(above.height));
         context_.parallel_for(level.height, 16, [&](std::int64_t begin, std::int64_t end) {
             for (auto y = static_cast<int>(begin); y < end; ++y) {
-                fill_row(above, y, level);
+                fill_smaller(above, y, level);
                 store_row(level, y, l);
             }
         });
@@ -217,7 +217,7 @@ class SetBake {
         const MapLevel& level = rows.level;
         const auto width = static_cast<std::size_t>(level.width);
         Texels texels{level, level.at(y), width, {}, {}};
-        make_materials(params_, layout_, rows.tolerance.from(texels.begin), texels);
+        make_materials(params_, layout_, rows.tolerance.from(texels.begin), sources_.visible_error(), texels);
         float& largest = largest_f0_[static_cast<std::size_t>(y)];
         for (std::size_t x = 0; x < width; ++x)
             if (level.metallic[texels.begin + x] < .99f)
@@ -234,10 +234,18 @@ class SetBake {
         }
     }
 
+    /// A row of means, of no more metal than a material has that reflects as much.
+    void fill_smaller(const MapLevel& above, int y, MapLevel& level) const {
+        fill_row(above, y, level);
+        if (layout_.has_residual && survey_.calibration.surface != "metal")
+            limit_metallic(sources_.visible_error(), level.at(y), static_cast<std::size_t>(level.width),
+                           level);
+    }
+
     void store_row(const MapLevel& level, int y, int l) {
         const auto width = static_cast<std::size_t>(level.width);
         Texels texels{level, level.at(y), width, {}, {}};
-        make_materials(params_, layout_, std::as_const(fine_).from(0), texels);
+        make_materials(params_, layout_, std::as_const(fine_).from(0), sources_.visible_error(), texels);
         store(texels, static_cast<std::size_t>(l), static_cast<std::size_t>(y) * width);
     }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bakers/texture/difference.hpp"
+#include "bakers/texture/pack.hpp"
 
 namespace pbrbake::texture {
 namespace {
@@ -29,6 +30,7 @@ Converter::Converter(const Sources& sources, const Survey& survey, int most_rows
     : sources_(sources),
       survey_(survey),
       estimate_(sources, survey.calibration),
+      has_residual_(layout_of(sources).has_residual),
       metal_(sources.width(), most_rows + 2 * kMetalReach, sources.params().wrap),
       line_(sources.width()),
       metallic_(line_.texels()),
@@ -65,6 +67,9 @@ const Rows& Converter::convert(int begin, int own_end, int end, std::vector<Find
     for (int y = begin; y < end; ++y) {
         float* metallic = level.metallic.data() + level.at(y);
         if (reach > 0) metal_.regularise(y - begin + kMetalReach, metallic);
+        if (reach > 0 && has_residual_)
+            limit_metallic(sources_.visible_error(), static_cast<std::size_t>(y - begin) * level.width,
+                           static_cast<std::size_t>(level.width), level);
         if (y >= own_end) continue;
         Findings& found = findings[static_cast<std::size_t>(y)];
         for (int x = 0; x < level.width; ++x) found.metallic += static_cast<double>(metallic[x]);

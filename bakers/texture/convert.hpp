@@ -46,6 +46,7 @@ class Converter {
     const Sources& sources_;
     const Survey& survey_;
     MetalEstimator estimate_;
+    bool has_residual_;
     MetalRows metal_;
     Rows rows_;
     LegacyRow line_;

@@ -131,6 +131,9 @@ class Sources {
     /// Whether the set has a Phong lobe, whose albedo is known without an f0.
     bool has_legacy_lobe() const;
     pbr::DiffuseCoupling coupling() const { return coupling_; }
+    /// How far a material's diffuse albedo may be from its texel's: nearly a code of 8-bit colours, else
+    /// 1e-4.
+    float visible_error() const;
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:

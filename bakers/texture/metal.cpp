@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+
+#include "bakers/texture/pack.hpp"
 
 namespace pbrbake::texture {
 namespace {
@@ -11,12 +14,31 @@ constexpr float kSure = .95f;  ///< texels this sure keep their own estimate
 /// full.
 constexpr int kRun = 32;
 
+/// Lowers metallic to the largest that may be, a run at a time; where all of a run is 0 there is nothing to
+/// do.
+void lower(const pbr::ReflectedPlanes& reflected, float largest_error, std::size_t count, float* metallic) {
+    std::array<float, kRun> largest;
+    for (std::size_t begin = 0; begin < count; begin += kRun) {
+        const std::size_t size = std::min<std::size_t>(kRun, count - begin);
+        float* values = metallic + begin;
+        if (std::all_of(values, values + size, [](float m) { return m <= 0; })) continue;
+        const auto from = [begin](const pbr::ColourPlanes& planes) {
+            return pbr::ColourPlanes{planes[0] + begin, planes[1] + begin, planes[2] + begin};
+        };
+        pbr::largest_metallic({from(reflected.diffuse), from(reflected.f0)}, largest_error, size,
+                              largest.data());
+        for (std::size_t i = 0; i < size; ++i) values[i] = std::min(values[i], largest[i]);
+    }
+}
+
 }  // namespace
 
 MetalEstimator::MetalEstimator(const Sources& sources, const Calibration& calibration)
     : prior_{static_cast<float>(sources.params().dielectric_f0),
              static_cast<float>(sources.params().f0_tolerance), .01f},
       coupling_(sources.coupling()),
+      largest_error_(sources.visible_error()),
+      has_residual_(layout_of(sources).has_residual),
       is_stated_(sources.params().model == Model::metallic_roughness),
       regularises_(sources.params().regularise && calibration.surface == "any" && !is_stated_) {
     constexpr float kGuessedScale = .5f;
@@ -38,7 +60,21 @@ void MetalEstimator::operator()(const LegacyRow& row, float* metallic, float* co
                                {row.diffuse_step.from(0), row.f0_step.from(0)}, coupling_, count, metallic,
                                confidence);
         for (std::size_t i = 0; i < count; ++i) confidence[i] *= trust_;
+        if (has_residual_) limit(row, metallic, confidence);
     }
+}
+
+/// Metal that a texel's material can't have was no metal for sure.
+void MetalEstimator::limit(const LegacyRow& row, float* metallic, float* confidence) const {
+    std::vector<float> estimates(metallic, metallic + row.texels());
+    lower({row.diffuse.from(0), row.f0.from(0)}, largest_error_, row.texels(), metallic);
+    for (std::size_t i = 0; i < row.texels(); ++i)
+        confidence[i] = std::max(0.f, confidence[i] - (estimates[i] - metallic[i]));
+}
+
+void limit_metallic(float largest_error, std::size_t begin, std::size_t count, MapLevel& level) {
+    lower({std::as_const(level.diffuse).from(begin), std::as_const(level.f0).from(begin)}, largest_error,
+          count, level.metallic.data() + begin);
 }
 
 MetalRows::MetalRows(int width, int rows, Wrap wrap)
@@ -79,7 +115,6 @@ void MetalRows::regularise(int row, float* out) const {
 
 /// The less sure a texel is, the more it takes of what its neighbours that look alike say.
 void MetalRows::regularise_run(int row, int begin, int end, float* out) const {
-    constexpr float kLeast = 1e-6f;
     constexpr int kWidth = 2 * kMetalReach + 1;
     const int count = end - begin;
     std::array<std::ptrdiff_t, kWidth * kWidth> apart;
@@ -101,17 +136,7 @@ void MetalRows::regularise_run(int row, int begin, int end, float* out) const {
         if (sure[i] >= kSure) continue;
         const float doubt = 1 - sure[i] / kSure;
         const float mean = means[static_cast<std::size_t>(i)];
-        // No more than surely has a material: with base colour f0 / m no dielectric f0 is left in the least
-        // channel, and in no other more than f0 / (1 - m), which lets the rest of the light through to
-        // diffuse.
-        float most = 1, brightest = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float d = here[diffuse + c][i], s = here[f0 + c][i];
-            most = std::min(most, (s + kLeast) / (s + d + kLeast));
-            brightest = std::max(brightest, s);
-        }
-        most *= 1 - brightest;
-        out[begin + i] = std::min(own[i] + doubt * (mean - own[i]), std::max(most, own[i]));
+        out[begin + i] = own[i] + doubt * (mean - own[i]);
     }
 }
 

@@ -19,13 +19,21 @@ class MetalEstimator {
     bool regularises() const { return regularises_; }
 
   private:
+    void limit(const LegacyRow& row, float* metallic, float* confidence) const;
+
     float told_ = -1;  ///< metallic of the whole set, where it is known; else < 0
     float trust_ = 1;
     pbr::MetallicPrior<float> prior_;
     pbr::DiffuseCoupling coupling_;
-    bool is_stated_;  ///< by the set itself
+    float largest_error_;
+    bool has_residual_;  ///< what metal leaves of f0 is kept, so that metallic has a limit
+    bool is_stated_;     ///< by the set itself
     bool regularises_;
 };
+
+/// Lowers the metallic of `count` texels from `begin` on to what a material of theirs may have, if diffuse
+/// may be off by `largest_error`: what neighbours or several texels have in the mean may be above it.
+void limit_metallic(float largest_error, std::size_t begin, std::size_t count, MapLevel& level);
 
 /// Rows of a set laid out for the mask: a plane each of diffuse, f0, metallic and confidence, with
 /// kMetalReach columns more on either side.

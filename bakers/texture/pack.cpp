@@ -134,7 +134,7 @@ std::vector<std::string> image_names(const TextureParams& params) {
 }
 
 void make_materials(const TextureParams& params, const Layout& layout, const pbr::ColourPlanes& tolerance,
-                    Texels& texels) {
+                    float largest_error, Texels& texels) {
     texels.base_color.resize(texels.count);
     texels.dielectric_f0.resize(texels.count);
     if (layout.is_specular_gloss) return;
@@ -144,8 +144,8 @@ void make_materials(const TextureParams& params, const Layout& layout, const pbr
     const pbr::MaterialPlanes materials{texels.base_color.from(0), texels.dielectric_f0.from(0)};
     const float* metallic = level.metallic.data() + texels.begin;
     if (layout.has_residual)
-        pbr::material_with_residual(reflected, metallic, f, tolerance, layout.coupling, texels.count,
-                                    materials);
+        pbr::material_with_residual(reflected, metallic, f, tolerance, layout.coupling, largest_error,
+                                    texels.count, materials);
     else
         pbr::material_without_residual(reflected, metallic, f, layout.largest_f0, layout.coupling,
                                        texels.count, materials);

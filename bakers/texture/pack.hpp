@@ -68,10 +68,10 @@ struct Texels {
     }
 };
 
-/// Makes the materials, with diffuse light moved by up to its tolerance; nothing in particular in a
-/// specular-gloss layout, which holds the level as it is.
+/// Makes the materials, with diffuse light moved by up to its tolerance, or `largest_error` where metal needs
+/// it; nothing in particular in a specular-gloss layout, which holds the level as it is.
 void make_materials(const TextureParams& params, const Layout& layout, const pbr::ColourPlanes& tolerance,
-                    Texels& texels);
+                    float largest_error, Texels& texels);
 
 /// What a channel holds of texels: `count` of `values`. dielectric_f0 is packed as it is: its unit is known
 /// at the end.

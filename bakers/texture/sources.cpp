@@ -181,6 +181,14 @@ Sources::Lobe Sources::lobe_of(float gloss) const {
     return lobe;
 }
 
+float Sources::visible_error() const {
+    constexpr float kNearly = .9f;  // what is left is for rounding
+    const auto is_coarse = [](const ColourMap& colours) {
+        return colours.map && colours.map.picture().bits() == 8;
+    };
+    return kNearly * (is_coarse(diffuse_) || is_coarse(specular_) ? 1.f / 255 : 1e-4f);
+}
+
 bool Sources::has_legacy_lobe() const {
     const Model model = rules_.params.model;
     return (model == Model::blinn_phong || model == Model::phong) && has_specular();

@@ -40,10 +40,11 @@ struct Results {
 };
 
 /// Metallic, confidence, materials of both kinds, what neighbours say, and the f0 of lobes, of noise, a plane
-/// each.
+/// each;
+/// and the largest metallic.
 std::vector<float> texel_planes() {
     constexpr std::size_t kTexels = 301, kPlanes = 9;
-    std::vector<float> noise(kPlanes * kTexels), planes(17 * kTexels);
+    std::vector<float> noise(kPlanes * kTexels), planes(18 * kTexels);
     for (std::size_t i = 0; i < noise.size(); ++i)
         noise[i] = static_cast<float>(random_unit(2, i)) * (i < 6 * kTexels ? 1.f : .003f);
     const auto colours = [&](std::size_t first) {
@@ -55,7 +56,7 @@ std::vector<float> texel_planes() {
     constexpr auto kCoupling = DiffuseCoupling::fresnel;
     estimate_metallic(reflected, {.04f, .02f, .01f}, {colours(6), colours(6)}, kCoupling, kTexels, to(0),
                       to(1));
-    material_with_residual(reflected, to(0), .04f, colours(6), kCoupling, kTexels,
+    material_with_residual(reflected, to(0), .04f, colours(6), kCoupling, .0035f, kTexels,
                            {{to(2), to(3), to(4)}, {to(5), to(6), to(7)}});
     material_without_residual(reflected, to(0), .04f, .16f, kCoupling, kTexels,
                               {{to(8), to(9), to(10)}, {to(11), to(12), to(13)}});
@@ -64,6 +65,7 @@ std::vector<float> texel_planes() {
     std::vector<std::uint8_t> clamped(kTexels);
     f0_from_mean_albedo(colours(0)[0], colours(1)[0], Scattering::multiple, kTexels, to(15), clamped.data());
     std::ranges::copy(clamped, to(16));
+    largest_metallic(reflected, .0035f, kTexels, to(17));
     return planes;
 }
 

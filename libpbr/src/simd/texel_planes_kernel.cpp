@@ -19,6 +19,9 @@ constexpr D d;
 
 HWY_INLINE V set(float value) { return hn::Set(d, value); }
 HWY_INLINE V clamp(V value, V low, V high) { return hn::Min(hn::Max(value, low), high); }
+/// In [0, 1], where NaN counts as 0.
+HWY_INLINE V unit(V x) { return hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), hn::Min(x, set(1))); }
+HWY_INLINE V max_channel(const V (&colour)[3]) { return hn::Max(colour[0], hn::Max(colour[1], colour[2])); }
 HWY_INLINE V mean_channel(const ColourPlanes& planes, std::size_t i) {
     const V sum = hn::Add(hn::Add(hn::LoadU(d, planes[0] + i), hn::LoadU(d, planes[1] + i)),
                           hn::LoadU(d, planes[2] + i));
@@ -65,14 +68,13 @@ HWY_INLINE Misfit misfit(const V (&diffuse)[3], const V (&f0)[3], V root, float 
 HWY_INLINE void estimate_at(std::size_t i, const ReflectedPlanes& reflected,
                             const MetallicPrior<float>& prior, const ReflectedPlanes& half_steps, float left,
                             float* metallic, float* confidence) {
-    constexpr float kSharpest = 1e-6f, kWater = .02f, kDoubt = .02f;
+    constexpr float kSharpest = 1e-6f, kWater = .02f, kDoubt = .02f, kCertain = 1000;
     const V one = set(1), zero = hn::Zero(d);
     const float f = prior.dielectric_f0;
-    const auto finite = [&](V x) HWY_ATTR { return hn::IfThenElseZero(hn::Gt(x, zero), hn::Min(x, one)); };
     V diffuse[3], f0[3];
     for (std::size_t c = 0; c < 3; ++c) {
-        diffuse[c] = finite(hn::Div(hn::LoadU(d, reflected.diffuse[c] + i), set(left)));
-        f0[c] = finite(hn::LoadU(d, reflected.f0[c] + i));
+        diffuse[c] = unit(hn::Div(hn::LoadU(d, reflected.diffuse[c] + i), set(left)));
+        f0[c] = unit(hn::LoadU(d, reflected.f0[c] + i));
     }
     const V q_diffuse = hn::Max(hn::Div(mean_channel(half_steps.diffuse, i), set(left)), set(kSharpest));
     const V q_f0 = hn::Max(mean_channel(half_steps.f0, i), set(kSharpest));
@@ -87,7 +89,8 @@ HWY_INLINE void estimate_at(std::size_t i, const ReflectedPlanes& reflected,
     const V y = hn::Div(found.strays, hn::Mul(set(2), hn::Add(q2, set(kDoubt * kDoubt))));
     const V odds =
         hn::Div(hn::Mul(set(prior.metal_odds), heavy_tailed_odds(x)), hn::Add(one, heavy_tailed_odds(y)));
-    const V m = hn::Mul(root, hn::Div(odds, hn::Add(one, odds)));
+    const V sure = hn::Mul(set(1 + 1 / kCertain), hn::Div(odds, hn::Add(one, odds)));
+    const V m = hn::Mul(root, hn::Min(one, sure));
 
     const V reach = hn::Add(q_f0, set(prior.f0_tolerance));
     const V highest = root_of(hn::Max(zero, hn::Sub(mean_diffuse, q_diffuse)), hn::Add(mean_f0, reach), f);
@@ -115,8 +118,47 @@ std::size_t estimate_all(const ReflectedPlanes& reflected, const MetallicPrior<f
     return i;
 }
 
-/// What the dielectric leaves of diffuse light: see pbr::material_with_residual.
-HWY_INLINE V left_of(const V (&diffuse)[3], const V (&f0)[3], V metallic, V rest) {
+/// See pbr::largest_metallic.
+HWY_INLINE void limit_at(std::size_t i, const ReflectedPlanes& reflected, float largest_error,
+                         float* metallic) {
+    const V one = set(1), zero = hn::Zero(d), error = set(largest_error);
+    V diffuse[3], f0[3], share[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+        diffuse[c] = unit(hn::LoadU(d, reflected.diffuse[c] + i));
+        f0[c] = unit(hn::LoadU(d, reflected.f0[c] + i));
+    }
+    const V rest = hn::Sub(one, max_channel(f0));
+    V ratio = zero, brightest = zero, most = one;
+    for (int c = 0; c < 3; ++c) {
+        const V least = hn::Sub(hn::Min(diffuse[c], rest), error);
+        ratio = hn::Max(ratio, hn::IfThenElseZero(hn::Gt(least, zero), hn::Div(least, f0[c])));
+    }
+    const auto is_diffuse = hn::Gt(ratio, zero);
+    for (int c = 0; c < 3; ++c) {
+        const V highest = hn::Min(hn::Add(diffuse[c], error), hn::Sub(rest, error));
+        share[c] = hn::Min(f0[c], hn::Div(highest, ratio));
+        brightest = hn::Max(brightest, hn::Mul(share[c], ratio));
+    }
+    for (int c = 0; c < 3; ++c) {
+        most = hn::Min(most, hn::Div(hn::Add(hn::Sub(one, f0[c]), share[c]), hn::Add(one, ratio)));
+        const V behind = hn::Sub(brightest, hn::Mul(share[c], ratio));
+        const V room = hn::Mul(brightest, hn::Sub(hn::Sub(one, brightest), f0[c]));
+        most = hn::IfThenElse(hn::Gt(behind, zero), hn::Min(most, hn::Div(room, behind)), most);
+    }
+    hn::StoreU(hn::IfThenElse(is_diffuse, hn::Max(most, zero), one), d, metallic + i);
+}
+
+/// Returns how many texels were done.
+std::size_t limit_all(const ReflectedPlanes& reflected, float largest_error, std::size_t count,
+                      float* metallic) {
+    const std::size_t lanes = hn::Lanes(d);
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes) limit_at(i, reflected, largest_error, metallic);
+    return i;
+}
+
+/// See pbr::left_for_diffuse.
+HWY_INLINE V left_for(const V (&diffuse)[3], const V (&f0)[3], V metallic, V rest) {
     const V one = set(1), zero = hn::Zero(d);
     V left = one;
     for (int c = 0; c < 3; ++c) {
@@ -129,44 +171,82 @@ HWY_INLINE V left_of(const V (&diffuse)[3], const V (&f0)[3], V metallic, V rest
     return left;
 }
 
+/// See pbr::left_needed; 0 where metallic is 0.
+HWY_INLINE V left_needed(const V (&least)[3], const V (&f0)[3], V metallic, V rest) {
+    V needed = hn::Zero(d);
+    for (int c = 0; c < 3; ++c) {
+        const V ratio = hn::Max(set(1), hn::Div(metallic, f0[c]));
+        const auto is_lit = hn::And(hn::Gt(least[c], hn::Zero(d)), hn::Gt(metallic, hn::Zero(d)));
+        needed = hn::Max(needed, hn::IfThenElseZero(is_lit, hn::Mul(hn::Div(least[c], rest), ratio)));
+    }
+    return needed;
+}
+
 HWY_INLINE void material_at(std::size_t i, const ReflectedPlanes& reflected, const float* metallic,
-                            float dielectric_f0, const ColourPlanes& tolerance, bool coupled,
-                            const MaterialPlanes& materials) {
+                            float dielectric_f0, const ColourPlanes& tolerances, bool coupled,
+                            float largest_error, const MaterialPlanes& materials) {
+    constexpr float kLeastTold = 1e-5f;
     const V one = set(1), zero = hn::Zero(d), f = set(dielectric_f0);
     const V m = hn::LoadU(d, metallic + i), rest = hn::Sub(one, m);
-    const auto is_part = hn::Gt(m, zero);
+    const auto is_part = hn::Gt(m, zero), is_mixed = hn::Gt(rest, zero);
     const V usual_left = set(coupled ? 1 - dielectric_f0 : 1);
-    V diffuse[3], f0[3];
+    V f0s[3], diffuse[3], least[3], most[3];
+    for (std::size_t c = 0; c < 3; ++c) f0s[c] = hn::LoadU(d, reflected.f0[c] + i);
+    const V light = hn::Sub(one, max_channel(f0s));
     for (std::size_t c = 0; c < 3; ++c) {
-        f0[c] = hn::LoadU(d, reflected.f0[c] + i);
-        const V own = hn::LoadU(d, reflected.diffuse[c] + i), reach = hn::LoadU(d, tolerance[c] + i);
-        const V base = clamp(hn::Div(hn::Sub(f0[c], hn::Mul(f, rest)), m), zero, one);
+        const V own = hn::LoadU(d, reflected.diffuse[c] + i), tolerance = hn::LoadU(d, tolerances[c] + i);
+        const V error = hn::Max(tolerance, set(largest_error)), brighter = hn::Add(own, error);
+        least[c] = hn::Sub(hn::Min(own, light), error);
+        most[c] = coupled ? hn::Max(own, hn::Min(brighter, hn::Sub(light, error))) : brighter;
+        const V base = clamp(hn::Div(hn::Sub(f0s[c], hn::Mul(f, rest)), m), zero, one);
         const V ideal = hn::Mul(hn::Mul(base, rest), usual_left);
-        diffuse[c] = hn::IfThenElse(
-            is_part, clamp(ideal, hn::Max(zero, hn::Sub(own, reach)), hn::Add(own, reach)), own);
+        const V wanted =
+            clamp(ideal, hn::Max(zero, hn::Sub(own, tolerance)), hn::Min(hn::Add(own, tolerance), most[c]));
+        diffuse[c] = hn::IfThenElse(is_part, wanted, own);
     }
-    const V left = coupled ? left_of(diffuse, f0, m, rest) : one;
-    const auto is_mixed = hn::Gt(rest, zero);
-    for (std::size_t c = 0; c < 3; ++c) {
-        const V wanted = hn::IfThenElseZero(hn::Gt(left, zero), hn::Div(diffuse[c], hn::Mul(rest, left)));
-        const V lowest = hn::IfThenElseZero(is_part, hn::Max(zero, hn::Div(hn::Sub(f0[c], rest), m)));
-        const V highest = hn::IfThenElse(is_part, hn::Min(one, hn::Div(f0[c], m)), one);
+    V own_left = one, left = one;
+    if (coupled) {
+        left = own_left = left_for(diffuse, f0s, m, rest);
+        const V needed = hn::AllFalse(d, is_part) ? zero : left_needed(least, f0s, m, rest);
+        if (!hn::AllFalse(d, hn::Gt(needed, left))) {
+            const V raised = hn::Max(left, hn::Min(needed, left_for(most, f0s, m, rest)));
+            left = hn::IfThenElse(hn::Gt(needed, left), raised, left);
+        }
+    }
+    const V per_base = hn::Mul(rest, left);
+    const auto is_lit = hn::Gt(per_base, zero), is_raised = hn::Gt(left, own_left);
+    const bool raises = !hn::AllFalse(d, is_raised);
+    const V told = hn::Min(one, hn::Div(hn::Mul(rest, rest), set(kLeastTold * kLeastTold)));
+    const V untold = hn::Mul(f, hn::Sub(one, told));
+    for (int c = 0; c < 3; ++c) {
+        const V f0 = f0s[c];
+        const V wanted = hn::IfThenElseZero(is_lit, hn::Div(diffuse[c], per_base));
+        V lowest = hn::Max(zero, hn::Div(hn::Sub(f0, rest), m));
+        if (raises) {
+            const V dim =
+                hn::Min(hn::Div(hn::Add(hn::Sub(f0, rest), per_base), m), hn::Div(most[c], per_base));
+            lowest = hn::IfThenElse(is_raised, hn::Max(lowest, dim), lowest);
+        }
+        lowest = hn::IfThenElseZero(is_part, lowest);
+        const V highest = hn::IfThenElse(is_part, hn::Min(one, hn::Div(f0, m)), one);
         const V base = clamp(wanted, hn::Min(lowest, highest), highest);
-        const V residual = clamp(hn::Div(hn::Sub(f0[c], hn::Mul(base, m)), rest), zero, one);
-        hn::StoreU(hn::IfThenElse(is_mixed, base, f0[c]), d, materials.base_color[c] + i);
-        hn::StoreU(hn::IfThenElse(is_mixed, residual, f), d, materials.dielectric_f0[c] + i);
+        const V residual = clamp(hn::Div(hn::Sub(f0, hn::Mul(base, m)), rest), zero, one);
+        const V dielectric = hn::Add(hn::Mul(residual, told), untold);
+        const auto channel = static_cast<std::size_t>(c);
+        hn::StoreU(hn::IfThenElse(is_mixed, base, f0), d, materials.base_color[channel] + i);
+        hn::StoreU(hn::IfThenElse(is_mixed, dielectric, f), d, materials.dielectric_f0[channel] + i);
     }
 }
 
 /// Returns how many texels were done.
 std::size_t material_all(const ReflectedPlanes& reflected, const float* metallic, float dielectric_f0,
-                         const ColourPlanes& tolerance, DiffuseCoupling coupling, std::size_t count,
-                         const MaterialPlanes& materials) {
+                         const ColourPlanes& tolerance, DiffuseCoupling coupling, float largest_error,
+                         std::size_t count, const MaterialPlanes& materials) {
     const std::size_t lanes = hn::Lanes(d);
     const bool coupled = coupling == DiffuseCoupling::fresnel;
     std::size_t i = 0;
     for (; i + lanes <= count; i += lanes)
-        material_at(i, reflected, metallic, dielectric_f0, tolerance, coupled, materials);
+        material_at(i, reflected, metallic, dielectric_f0, tolerance, coupled, largest_error, materials);
     return i;
 }
 
@@ -256,6 +336,7 @@ namespace pbr {
 namespace {
 
 HWY_EXPORT(estimate_all);
+HWY_EXPORT(limit_all);
 HWY_EXPORT(material_all);
 HWY_EXPORT(grey_material_all);
 HWY_EXPORT(alike_all);
@@ -308,14 +389,20 @@ void estimate_metallic(const ReflectedPlanes& reflected, const MetallicPrior<flo
     }
 }
 
+void largest_metallic(const ReflectedPlanes& reflected, float largest_error, std::size_t count,
+                      float* metallic) {
+    std::size_t i = HWY_DYNAMIC_DISPATCH(limit_all)(reflected, largest_error, count, metallic);
+    for (; i < count; ++i) metallic[i] = largest_metallic<float>(reflected_at(reflected, i), largest_error);
+}
+
 void material_with_residual(const ReflectedPlanes& reflected, const float* metallic, float dielectric_f0,
                             const ColourPlanes& diffuse_tolerance, DiffuseCoupling coupling,
-                            std::size_t count, const MaterialPlanes& materials) {
+                            float largest_error, std::size_t count, const MaterialPlanes& materials) {
     std::size_t i = HWY_DYNAMIC_DISPATCH(material_all)(reflected, metallic, dielectric_f0, diffuse_tolerance,
-                                                       coupling, count, materials);
+                                                       coupling, largest_error, count, materials);
     for (; i < count; ++i)
         store(material_with_residual<float>(reflected_at(reflected, i), metallic[i], dielectric_f0,
-                                            colour_at(diffuse_tolerance, i), coupling),
+                                            colour_at(diffuse_tolerance, i), coupling, largest_error),
               materials, i);
 }
 

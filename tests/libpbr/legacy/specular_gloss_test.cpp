@@ -271,5 +271,132 @@ TEST(MetallicRoundTrip, WithoutResidualIsContinuousAndExactWhereTheModelIs) {
     EXPECT_NEAR(gem.base_color.x, .2, 1e-12);
 }
 
+// --- which metallic is possible
+// ----------------------------------------------------------------------------------
+
+/// Whether a material of this metallic reflects that, found by bisection for what the dielectric leaves of
+/// diffuse light: the more that is, the less base colour takes of f0, and the less the dielectric may leave.
+bool has_material(const Reflected<double>& reflected, double metallic) {
+    constexpr double kClose = 1e-13;
+    const double rest = 1 - metallic;
+    const auto base = [&](int c, double left) { return reflected.diffuse[c] / (rest * left); };
+    const auto dielectric = [&](int c, double left) {
+        return (reflected.f0[c] - base(c, left) * metallic) / rest;
+    };
+    const auto brightest = [&](double left) {
+        return std::max({dielectric(0, left), dielectric(1, left), dielectric(2, left)});
+    };
+    double low = 0, high = 1;
+    if (1 - brightest(high) > high) return false;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = (low + high) / 2;
+        (1 - brightest(middle) > middle ? low : high) = middle;
+    }
+    for (int c = 0; c < 3; ++c)
+        if (base(c, high) > 1 + kClose || dielectric(c, high) < -kClose || dielectric(c, high) > 1 + kClose)
+            return false;
+    return true;
+}
+
+/// What surfaces reflect, with black channels, greys and near greys among them; all of it within all light.
+template <class Visit>
+void for_each_reflected(std::uint64_t seed, int count, Visit visit) {
+    for (int i = 0; i < count; ++i) {
+        const auto random = [&](int channel) { return random_unit(seed + channel, i); };
+        const double diffuse_scale = random(0) * random(1) * (i % 3 == 0 ? .01 : 1), f0_scale = random(2);
+        Reflected<double> reflected{diffuse_scale * Colour(random(3), random(4), random(5)),
+                                    f0_scale * Colour(random(6), random(7), random(8))};
+        if (i % 4 == 0) reflected.f0 = Colour(f0_scale) - .01 * reflected.f0;
+        if (i % 5 == 0) reflected.diffuse[i % 3] = 0;
+        if (i % 7 == 0) reflected.diffuse = Colour(diffuse_scale) - .01 * reflected.diffuse;
+        reflected.f0 = glm::max(reflected.f0, Colour(0));
+        reflected.diffuse = glm::max(reflected.diffuse, Colour(0));
+        if (max_channel(reflected.diffuse) + max_channel(reflected.f0) <= 1) visit(reflected, random(9));
+    }
+}
+
+TEST(LargestMetallic, IsWhereASearchForMaterialsEnds) {
+    int compared = 0;
+    for_each_reflected(20, 5000, [&](const Reflected<double>& reflected, double) {
+        if (max_channel(reflected.diffuse) == 0) return;
+        const double largest = largest_metallic(reflected, 0.);
+        for (int step = 1; step < 20; ++step) {
+            const double metallic = step / 20.;
+            if (std::abs(metallic - largest) < 1e-7) continue;
+            ASSERT_EQ(has_material(reflected, metallic), metallic < largest) << largest << " " << metallic;
+            ++compared;
+        }
+        for (const double close : {-1e-6, 1e-6}) {
+            if (largest + close <= 0 || largest + close >= 1) continue;
+            ASSERT_EQ(has_material(reflected, largest + close), close < 0) << largest;
+        }
+    });
+    EXPECT_GT(compared, 40000);
+}
+
+TEST(LargestMetallic, IsNoLessThanThatOfTheMaterialBehind) {
+    for (int i = 0; i < 20000; ++i) {
+        const auto random = [&](int channel) { return random_unit(40 + channel, i); };
+        const MetallicMaterial<double> truth{Colour(random(0), random(1), random(2)), random(3),
+                                             random(4) * Colour(random(5), random(6), random(7))};
+        EXPECT_GE(largest_metallic(reflected_from_metallic(truth, fresnel), 0.), truth.metallic - 1e-9);
+        // Its own limit: base colour takes all of the f0 of its brightest ratio of diffuse to f0, or is
+        // white.
+        MetallicMaterial<double> edge = truth;
+        edge.dielectric_f0[i % 3] = 0;
+        edge.base_color = glm::max(edge.base_color, Colour(.05));
+        const auto reflected = reflected_from_metallic(edge, fresnel);
+        const Colour ratio = reflected.diffuse / reflected.f0;
+        if (ratio[i % 3] < max_channel(ratio)) continue;
+        EXPECT_NEAR(largest_metallic(reflected, 0.), edge.metallic, 1e-9);
+    }
+    for (const double s : {.1, .5, .9})
+        EXPECT_NEAR(largest_metallic<double>({Colour(.1), Colour(s)}, 0.), s / (s + .1), 1e-15);
+    EXPECT_EQ(largest_metallic<double>({Colour(0), Colour(.5)}, 0.), 1);
+    EXPECT_EQ(largest_metallic<double>({Colour(.1), Colour(0, .5, .5)}, 0.), 0);
+}
+
+TEST(LargestMetallic, LeavesDiffuseWithinTheErrorAllowed) {
+    constexpr double kPassingOver = 4e-6;  // to the usual dielectric's f0, nearest to metallic 1
+    for (const double tolerance : {0., 1e-6, 5e-4, 4e-3})
+        for_each_reflected(60, 20000, [&](const Reflected<double>& reflected, double share) {
+            const double largest = largest_metallic(reflected, tolerance);
+            for (const double metallic : {largest, share * largest})
+                for (const double half_step : {0., tolerance / 30, tolerance}) {
+                    const auto back =
+                        reflected_from_metallic(material_with_residual(reflected, metallic, .04,
+                                                                       Colour(half_step), fresnel, tolerance),
+                                                fresnel);
+                    ASSERT_LE(distance(back.diffuse, reflected.diffuse), tolerance + kPassingOver)
+                        << metallic;
+                    ASSERT_LE(distance(back.f0, reflected.f0), kPassingOver) << metallic;
+                }
+        });
+}
+
+/// A tolerance of half a code's interval allows the mask that a set was made from.
+TEST(LargestMetallic, DoesNotTouchWhatWasMadeFromAMaterial) {
+    for_each_material([](const MetallicMaterial<double>& truth) {
+        const auto original = reflected_from_metallic(truth, fresnel);
+        Colour d = diffuse_colour(original, fresnel), s = original.f0;
+        for (int c = 0; c < 3; ++c) d[c] = in_16_bits(d[c]), s[c] = in_16_bits(s[c]);
+        const auto stored = reflected_from_specular(d, s, fresnel);
+        const Colour half(std::max(1e-6, step_16(0) * (1 - max_channel(s))));
+        const auto m = estimate_metallic<double>(stored, {.04, 0, .01}, {half, Colour(step_16(0))}, fresnel);
+        EXPECT_GE(largest_metallic(stored, step_16(0)), m.metallic - 1e-4);
+    });
+}
+
+TEST(MetallicMaterials, NearlyMetalHasTheUsualDielectric) {
+    for (const float rest : {1e-7f, 2e-6f})
+        for (const Vec3<float> f0 : {Vec3<float>(1.f, .766f, .336f), Vec3<float>(.56f, .57f, .58f)}) {
+            const auto material = material_with_residual<float>({Vec3<float>(0), f0}, 1 - rest, .04f,
+                                                                Vec3<float>(1e-6f), fresnel);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(material.dielectric_f0[c], .04f, .05f) << rest;
+        }
+    // Black with the f0 of a metal beyond doubt is metal, and no more.
+    for (const double f0 : {.25, .56, .9, 1.}) EXPECT_NEAR(estimate(0, f0).metallic, 1, 1e-15) << f0;
+}
+
 }  // namespace
 }  // namespace pbr

@@ -81,18 +81,31 @@ struct Materials {
     std::array<std::vector<float>, 3> base, dielectric;
 };
 
+TEST(TexelPlanes, LargestMetallicIsThatOfOneTexel) {
+    for (const std::size_t count : {1, 37, 3000}) {
+        const Texels texels(count, true);
+        std::vector<float> largest(count);
+        largest_metallic({Texels::planes(texels.diffuse), Texels::planes(texels.f0)}, .0035f, count,
+                         largest.data());
+        for (std::size_t i = 0; i < count; ++i)
+            ASSERT_EQ(largest[i], largest_metallic<float>(
+                                      {Texels::at(texels.diffuse, i), Texels::at(texels.f0, i)}, .0035f))
+                << i;
+    }
+}
+
 TEST(TexelPlanes, MaterialsAreThoseOfOneTexel) {
     for (const std::size_t count : {1, 37, 3000})
         for (const DiffuseCoupling coupling : {none, fresnel}) {
             const Texels texels(count, false);
             Materials materials(count);
             material_with_residual({Texels::planes(texels.diffuse), Texels::planes(texels.f0)},
-                                   texels.metallic.data(), .04f, Texels::planes(texels.step), coupling, count,
-                                   materials.planes());
+                                   texels.metallic.data(), .04f, Texels::planes(texels.step), coupling, .002f,
+                                   count, materials.planes());
             for (std::size_t i = 0; i < count; ++i) {
                 const auto one = material_with_residual<float>(
                     {Texels::at(texels.diffuse, i), Texels::at(texels.f0, i)}, texels.metallic[i], .04f,
-                    Texels::at(texels.step, i), coupling);
+                    Texels::at(texels.step, i), coupling, .002f);
                 ASSERT_EQ(Texels::at(materials.base, i), one.base_color) << i;
                 ASSERT_EQ(Texels::at(materials.dielectric, i), one.dielectric_f0) << i;
             }

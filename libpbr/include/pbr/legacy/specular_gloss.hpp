@@ -136,8 +136,8 @@ constexpr T heavy_tailed_odds(T x) {
 /// how far f0 is from the usual dielectric's: 1/2 mean((f0 - dielectric_f0)+^2) / (quantisation^2 +
 /// f0_tolerance^2). y says how far the colours are from that metal's, as a grey f0 over a saturated diffuse
 /// colour is: 1/2 sum(e^2) / (quantisation^2 + .02^2), with e a channel's departure of f0 from the material
-/// of the root. So metallic is 0 where f0 is the dielectric's, and the root where f0 is far from it and has
-/// the colours that the root says.
+/// of the root. Odds of 1000 are certainty. So metallic is 0 where f0 is the dielectric's, and the root where
+/// f0 is far from it and has the colours that the root says.
 ///
 /// Confidence is 1 minus the range of the root over diffuse -+ quantisation, f0 -+ (quantisation +
 /// f0_tolerance): 0 for black with f0 = dielectric_f0; and minus what the odds took from the root. It falls
@@ -147,7 +147,7 @@ constexpr T heavy_tailed_odds(T x) {
 template <class T>
 MetallicEstimate<T> estimate_metallic(const Reflected<T>& reflected, const MetallicPrior<T>& prior,
                                       const Quantisation<T>& quantisation, DiffuseCoupling coupling) {
-    constexpr T kSharpest = T(1e-6), kWater = T(.02), kDoubt = T(.02);
+    constexpr T kSharpest = T(1e-6), kWater = T(.02), kDoubt = T(.02), kCertain = T(1000);
     const auto finite = [](T x) { return x > T(0) ? std::min(x, T(1)) : T(0); };
     const T f = prior.dielectric_f0;
     // With coupling, the base colour's own diffuse is what is left of it after the dielectric's reflection.
@@ -174,7 +174,7 @@ MetallicEstimate<T> estimate_metallic(const Reflected<T>& reflected, const Metal
     const T x = squares / (T(2) * (q_f0 * q_f0 + prior.f0_tolerance * prior.f0_tolerance));
     const T y = strays / (T(2) * (q_f0 * q_f0 + kDoubt * kDoubt));
     const T odds = prior.metal_odds * heavy_tailed_odds(x) / (T(1) + heavy_tailed_odds(y));
-    const T m = root * (odds / (T(1) + odds));
+    const T m = root * std::min(T(1), (T(1) + T(1) / kCertain) * (odds / (T(1) + odds)));
 
     const T reach = q_f0 + prior.f0_tolerance;
     const T highest = metallic_root(std::max(T(0), d - q_diffuse), s + reach, f);
@@ -186,43 +186,126 @@ MetallicEstimate<T> estimate_metallic(const Reflected<T>& reflected, const Metal
     return {m, told * plausible / (T(1) + departure * departure)};
 }
 
-/// Metallic material of a given metallic that reflects `reflected`. Its diffuse light is brought towards that
-/// of the base colour which explains f0 with the given dielectric_f0, but by no more than
-/// `diffuse_tolerance`; the material's dielectric_f0 is what of f0 the base colour then leaves. So f0 is
-/// exact and diffuse within the tolerance where such a material exists with members in [0, 1]; else f0 comes
-/// first. metallic in [0, 1]; 1 has base_color = f0 and the given dielectric_f0. Absolute error of both below
-/// 32 ulp of 1, besides the tolerance, where one exists. Continuous in all arguments.
+/// The largest metallic that a material with members in [0, 1] and a dielectric_f0 of any colour may have to
+/// reflect `reflected` under DiffuseCoupling::fresnel, with diffuse off by up to `largest_error`; every
+/// smaller one does too. Diffuse D above what f0 S leaves, 1 - max S, counts as that. 1 without diffuse
+/// light.
+///
+/// The dielectric leaves L = 1 - max dielectric_f0 of the base colour D / ((1 - m) L). A channel k lets
+/// L^2 - (1 - S_k / (1 - m)) L - m D_k / (1 - m)^2 be at most 0; base colours of at most 1 and S / m ask for
+/// L >= D / (1 - m) and L >= m D / ((1 - m) S). Both are linear in m: with x = max D, t = max D / S,
+///
+///     m (x - D_k) <= x (1 - x - S_k)          m (1 + t) <= 1 - S_k + D_k / t          for every k.
+///
+/// So a grey surface has S / (S + D). Exact for no error, to 16 ulp (1 + 1 / t); with one, no more than it
+/// allows. Continuous where the error is above 0. NaN channels count as 0.
 template <class T>
-MetallicMaterial<T> material_with_residual(const Reflected<T>& reflected, T metallic, T dielectric_f0,
-                                           const Vec3<T>& diffuse_tolerance, DiffuseCoupling coupling) {
-    const T rest = T(1) - metallic;
-    if (!(rest > T(0))) return {reflected.f0, T(1), Vec3<T>(dielectric_f0)};
-    const bool coupled = coupling == DiffuseCoupling::fresnel;
-    const T usual_left = coupled ? T(1) - dielectric_f0 : T(1);
-    Vec3<T> diffuse = reflected.diffuse;
-    for (int c = 0; metallic > T(0) && c < 3; ++c) {
-        const T base = std::clamp((reflected.f0[c] - dielectric_f0 * rest) / metallic, T(0), T(1));
-        const T ideal = base * rest * usual_left;
-        diffuse[c] = std::clamp(ideal, std::max(T(0), diffuse[c] - diffuse_tolerance[c]),
-                                diffuse[c] + diffuse_tolerance[c]);
+T largest_metallic(const Reflected<T>& reflected, T largest_error) {
+    const auto finite = [](T x) { return x > T(0) ? std::min(x, T(1)) : T(0); };
+    Vec3<T> f0;
+    for (int c = 0; c < 3; ++c) f0[c] = finite(reflected.f0[c]);
+    const T rest = T(1) - max_channel(f0);
+    T ratio = 0;  // t; infinite without f0, of which metal takes nothing then
+    for (int c = 0; c < 3; ++c) {
+        const T least = std::min(finite(reflected.diffuse[c]), rest) - largest_error;
+        if (least > T(0)) ratio = std::max(ratio, least / f0[c]);
     }
-    // With coupling, left = 1 - max dielectric_f0, and dielectric_f0 = (f0 - metallic diffuse / (rest left))
-    // / rest: a quadratic a channel, and the smallest root is the one that all channels allow.
+    if (!(ratio > T(0))) return T(1);
+    // The other channels as bright as t and the error allow, D / t of each.
+    Vec3<T> share;
+    T brightest = 0, most = T(1);
+    for (int c = 0; c < 3; ++c) {
+        const T highest = std::min(finite(reflected.diffuse[c]) + largest_error, rest - largest_error);
+        share[c] = std::min(f0[c], highest / ratio);
+        brightest = std::max(brightest, share[c] * ratio);
+    }
+    for (int c = 0; c < 3; ++c) {
+        most = std::min(most, (T(1) - f0[c] + share[c]) / (T(1) + ratio));
+        const T behind = brightest - share[c] * ratio;
+        if (behind > T(0)) most = std::min(most, brightest * (T(1) - brightest - f0[c]) / behind);
+    }
+    return std::max(most, T(0));
+}
+
+/// What a coupled material of metallic in [0, 1) that reflects `reflected` leaves of base colour for diffuse
+/// light: left = 1 - max dielectric_f0 with dielectric_f0 = (f0 - metallic diffuse / (rest left)) / rest is a
+/// quadratic a channel, and the smallest root is the one that all channels allow.
+template <class T>
+T left_for_diffuse(const Reflected<T>& reflected, T metallic) {
+    const T rest = T(1) - metallic;
     T left = T(1);
-    for (int c = 0; coupled && c < 3; ++c) {
-        const T b = T(1) - reflected.f0[c] / rest, q = metallic * diffuse[c] / (rest * rest);
+    for (int c = 0; c < 3; ++c) {
+        const T b = T(1) - reflected.f0[c] / rest, q = metallic * reflected.diffuse[c] / (rest * rest);
         const T root = std::sqrt(b * b + T(4) * q);
         left = std::min(left, b > T(0) ? (b + root) / T(2) : q > T(0) ? T(2) * q / (root - b) : T(0));
     }
+    return left;
+}
+
+/// How much of it diffuse light of no less than `least` needs, below 0 as 0: base_color is at most 1 and
+/// f0 / metallic.
+template <class T>
+T left_needed(const Vec3<T>& least, const Vec3<T>& f0, T metallic) {
+    T needed = T(0);
+    for (int c = 0; c < 3; ++c) {
+        const T ratio = metallic > T(0) ? std::max(T(1), metallic / f0[c]) : T(1);
+        if (least[c] > T(0)) needed = std::max(needed, least[c] / (T(1) - metallic) * ratio);
+    }
+    return needed;
+}
+
+/// Metallic material of a given metallic that reflects `reflected`. Its diffuse light is brought towards that
+/// of the base colour which explains f0 with the given dielectric_f0, but by no more than
+/// `diffuse_tolerance`; the material's dielectric_f0 is what of f0 the base colour then leaves. With
+/// coupling, f0 is exact, and diffuse within the tolerance or `largest_error`, for metallic up to
+/// largest_metallic of that error, if all is no more than all light. Else, and without coupling where no such
+/// material has members in [0, 1], f0 comes first. metallic in [0, 1]; 1 has base_color = f0 and the given
+/// dielectric_f0, to which materials pass over from 1 - 1e-5 on: what tells theirs is rounding by then.
+/// Absolute error of both below 32 ulp of 1, and in double 4e-6 from there on, besides the tolerance.
+/// Continuous in all arguments.
+template <class T>
+MetallicMaterial<T> material_with_residual(const Reflected<T>& reflected, T metallic, T dielectric_f0,
+                                           const Vec3<T>& diffuse_tolerance, DiffuseCoupling coupling,
+                                           T largest_error = T(0)) {
+    constexpr T kLeastTold = T(1e-5);
+    const T rest = T(1) - metallic, light = T(1) - max_channel(reflected.f0);
+    if (!(rest > T(0))) return {reflected.f0, T(1), Vec3<T>(dielectric_f0)};
+    const bool coupled = coupling == DiffuseCoupling::fresnel, is_part = metallic > T(0);
+    const T usual_left = coupled ? T(1) - dielectric_f0 : T(1);
+    Vec3<T> diffuse = reflected.diffuse, least = diffuse, most = diffuse;
+    for (int c = 0; is_part && c < 3; ++c) {
+        const T own = reflected.diffuse[c], tolerance = diffuse_tolerance[c];
+        const T error = std::max(tolerance, largest_error);
+        least[c] = std::min(own, light) - error;
+        most[c] = coupled ? std::max(own, std::min(own + error, light - error)) : own + error;
+        const T base = std::clamp((reflected.f0[c] - dielectric_f0 * rest) / metallic, T(0), T(1));
+        const T ideal = base * rest * usual_left;
+        diffuse[c] = std::clamp(ideal, std::max(T(0), own - tolerance), std::min(own + tolerance, most[c]));
+    }
+    T own_left = T(1), left = T(1);
+    if (coupled) {
+        left = own_left = left_for_diffuse<T>({diffuse, reflected.f0}, metallic);
+        // A channel may need more, and others give it by more diffuse light of their own, as the error
+        // allows.
+        const T needed = is_part ? left_needed(least, reflected.f0, metallic) : T(0);
+        if (needed > left)
+            left = std::max(left, std::min(needed, left_for_diffuse<T>({most, reflected.f0}, metallic)));
+    }
+    const T per_base = rest * left;  // diffuse light
+    const T told = std::min(T(1), rest * rest / (kLeastTold * kLeastTold));
     MetallicMaterial<T> material{Vec3<T>(0), metallic, Vec3<T>(dielectric_f0)};
     for (int c = 0; c < 3; ++c) {
         const T f0 = reflected.f0[c];
-        const T wanted = left > T(0) ? diffuse[c] / (rest * left) : T(0);
-        const T lowest = metallic > T(0) ? std::max(T(0), (f0 - rest) / metallic) : T(0);
-        const T highest = metallic > T(0) ? std::min(T(1), f0 / metallic) : T(1);
+        const T wanted = per_base > T(0) ? diffuse[c] / per_base : T(0);
+        // Below, dielectric_f0 would have to be above 1, or above 1 - left.
+        T lowest = is_part ? std::max(T(0), (f0 - rest) / metallic) : T(0);
+        if (left > own_left)
+            lowest = std::max(lowest, std::min((f0 - rest + per_base) / metallic, most[c] / per_base));
+        const T highest = is_part ? std::min(T(1), f0 / metallic) : T(1);
         const T base = std::clamp(wanted, std::min(lowest, highest), highest);
+        const T residual = std::clamp((f0 - base * metallic) / rest, T(0), T(1));
         material.base_color[c] = base;
-        material.dielectric_f0[c] = std::clamp((f0 - base * metallic) / rest, T(0), T(1));
+        material.dielectric_f0[c] = residual * told + dielectric_f0 * (T(1) - told);
     }
     return material;
 }

@@ -28,10 +28,14 @@ void estimate_metallic(const ReflectedPlanes& reflected, const MetallicPrior<flo
                        const ReflectedPlanes& half_steps, DiffuseCoupling coupling, std::size_t count,
                        float* metallic, float* confidence);
 
+/// largest_metallic of `count` texels, with the same domain. Outputs may not overlap inputs.
+void largest_metallic(const ReflectedPlanes& reflected, float largest_error, std::size_t count,
+                      float* metallic);
+
 /// material_with_residual of `count` texels, with the same domain. Outputs may not overlap inputs.
 void material_with_residual(const ReflectedPlanes& reflected, const float* metallic, float dielectric_f0,
                             const ColourPlanes& diffuse_tolerance, DiffuseCoupling coupling,
-                            std::size_t count, const MaterialPlanes& materials);
+                            float largest_error, std::size_t count, const MaterialPlanes& materials);
 
 /// material_without_residual of `count` texels, with the same domain. Outputs may not overlap inputs.
 void material_without_residual(const ReflectedPlanes& reflected, const float* metallic, float dielectric_f0,
