@@ -68,8 +68,8 @@ struct Texels {
     }
 };
 
-/// Makes the materials, with diffuse light moved by up to its tolerance; nothing in particular in a
-/// specular-gloss layout, which holds the level as it is.
+/// Makes the materials, with diffuse light moved by up to its tolerance. A specular-gloss layout holds the
+/// level as it is: there base_color is the diffuse colour, and dielectric_f0 nothing in particular.
 void make_materials(const TextureParams& params, const Layout& layout, const pbr::ColourPlanes& tolerance,
                     Texels& texels);
 
