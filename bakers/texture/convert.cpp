@@ -135,13 +135,19 @@ void Converter::read_own(int y) {
 }
 
 Findings Converter::find() const {
+    const auto [dr, dg, db] = line_.diffuse.from(0);
+    const auto [sr, sg, sb] = line_.f0.from(0);
+    int clamped = 0, over = 0, low = 0;
     Findings found;
     for (std::size_t i = 0; i < line_.texels(); ++i) {
-        found.f0_clamped += line_.f0_clamped[i];
-        found.over_unity += pbr::max_channel(line_.diffuse[i] + line_.f0[i]) > kAllLight ? 1 : 0;
-        found.low_confidence += confidence_[i] < .5f ? 1 : 0;
-        found.confidence += static_cast<double>(confidence_[i]);
+        clamped += line_.f0_clamped[i];
+        over += std::max(dr[i] + sr[i], std::max(dg[i] + sg[i], db[i] + sb[i])) > kAllLight;
+        low += confidence_[i] < .5f;
     }
+    for (const float confidence : confidence_) found.confidence += static_cast<double>(confidence);
+    found.f0_clamped = clamped;
+    found.over_unity = over;
+    found.low_confidence = low;
     return found;
 }
 

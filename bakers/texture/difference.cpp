@@ -12,8 +12,7 @@ namespace {
 /// CIE 15:2004, 8.2.1.1.
 double lab_curve(double t) {
     constexpr double kEdge = 6. / 29;
-    return t > kEdge * kEdge * kEdge ? pbr::exp_exact(pbr::log_exact(t) / 3)
-                                     : t / (3 * kEdge * kEdge) + 4. / 29;
+    return t > kEdge * kEdge * kEdge ? pbr::cbrt_exact(t) : t / (3 * kEdge * kEdge) + 4. / 29;
 }
 
 std::array<double, 3> lab(const Colour& colour) {

@@ -137,8 +137,15 @@ void make_materials(const TextureParams& params, const Layout& layout, const pbr
                     float largest_error, Texels& texels) {
     texels.base_color.resize(texels.count);
     texels.dielectric_f0.resize(texels.count);
-    if (layout.is_specular_gloss) return;
     const MapLevel& level = texels.level;
+    if (layout.is_specular_gloss) {
+        for (std::size_t i = 0; i < texels.count; ++i) {
+            const std::size_t at = texels.begin + i;
+            texels.base_color.set(
+                i, pbr::diffuse_colour<float>({level.diffuse[at], level.f0[at]}, kSpecularGloss));
+        }
+        return;
+    }
     const auto f = static_cast<float>(params.dielectric_f0);
     const pbr::ReflectedPlanes reflected{level.diffuse.from(texels.begin), level.f0.from(texels.begin)};
     const pbr::MaterialPlanes materials{texels.base_color.from(0), texels.dielectric_f0.from(0)};
@@ -217,10 +224,8 @@ void pack(Held held, const Texels& texels, float* values) {
         case diffuse_r:
         case diffuse_g:
         case diffuse_b: {
-            const int c = first - static_cast<int>(diffuse_r);
-            return fill([&level, c](std::size_t i) {
-                return pbr::diffuse_colour<float>({level.diffuse[i], level.f0[i]}, kSpecularGloss)[c];
-            });
+            return copy(
+                texels.base_color.channels[static_cast<std::size_t>(first - static_cast<int>(diffuse_r))], 0);
         }
         case f0_r:
         case f0_g:

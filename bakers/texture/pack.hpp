@@ -69,7 +69,8 @@ struct Texels {
 };
 
 /// Makes the materials, with diffuse light moved by up to its tolerance, or `largest_error` where metal needs
-/// it; nothing in particular in a specular-gloss layout, which holds the level as it is.
+/// it. A specular-gloss layout holds the level as it is: there base_color is the diffuse colour, and
+/// dielectric_f0 nothing in particular.
 void make_materials(const TextureParams& params, const Layout& layout, const pbr::ColourPlanes& tolerance,
                     float largest_error, Texels& texels);
 

@@ -148,7 +148,7 @@ float Sources::exponent_at(int x, int y) const {
     return exponent(gloss * static_cast<float>(rules_.params.gloss_factor));
 }
 
-/// Of a gloss value times its factor; `n` becomes the exponent.
+/// Of a gloss value times its factor; `n` becomes the exponent where it has one, or a legacy lobe needs it.
 float Sources::perceptual_roughness(float gloss, float& n) const {
     const bool is_phong = rules_.params.model == Model::phong;
     const auto of_exponent = [&](float power) {
@@ -165,8 +165,9 @@ float Sources::perceptual_roughness(float gloss, float& n) const {
                     : gloss_reading_.is == GlossIs::perceptual_roughness ? value
                     : gloss_reading_.is == GlossIs::alpha ? pbr::perceptual_roughness_from_alpha(value)
                                                           : pbr::perceptual_roughness_from_smoothness(value);
-    n = pbr::blinn_phong_from_alpha(pbr::alpha_from_perceptual_roughness(p), fit_of(rules_.params.fit)) /
-        (is_phong ? 4.f : 1.f);
+    if (has_legacy_lobe())
+        n = pbr::blinn_phong_from_alpha(pbr::alpha_from_perceptual_roughness(p), fit_of(rules_.params.fit)) /
+            (is_phong ? 4.f : 1.f);
     return p;
 }
 
@@ -204,7 +205,7 @@ void Sources::tabulate_gloss() {
     const bool is_large = static_cast<std::size_t>(width_) * height_ > std::size_t{1} << 18;
     if (bits == 8 && !gloss_.is_srgb())
         for (int code = 0; code < 256; ++code) lobes_.push_back(lobe_of(static_cast<float>(code / 255.)));
-    else if (bits == 16 && is_large)
+    else if (bits == 16 && is_large && has_legacy_lobe())
         for (int code = 0; code < 65536; ++code)
             lobes_.push_back(lobe_of(static_cast<float>(code) * (1.f / 65535)));
 }

@@ -60,6 +60,18 @@ TEST(Elementary, LogDefinesItsEdges) {
     EXPECT_TRUE(std::isinf(log_exact(std::numeric_limits<double>::infinity())));
 }
 
+TEST(Elementary, CbrtAgreesWithLongDouble) {
+    long double worst = 0;
+    for (int i = 0; i < kPoints; ++i) {
+        const double x = std::ldexp(1 + random_unit(6, i), i % 1980 - 990);
+        const long double root = std::cbrt(static_cast<long double>(x));
+        worst = std::max(worst, std::abs(cbrt_exact(x) - root) / root);
+    }
+    EXPECT_LE(worst, 4e-16L);
+    for (const double root : {0., 1., 2., 3., 10., 1e-100, 1e100})
+        EXPECT_NEAR(cbrt_exact(root * root * root), root, 4e-16 * root);
+}
+
 TEST(Elementary, Atan2AgreesWithLongDouble) {
     long double worst = 0;
     for (int i = 0; i < kPoints; ++i) {

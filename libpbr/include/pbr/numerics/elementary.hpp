@@ -26,6 +26,9 @@ double exp_exact(double x);
 /// Binary logarithm; domain and error as log_exact.
 double log2_exact(double x);
 
+/// Cube root. Domain: 0, and x in [1e-300, 1e300]. Relative error <= 4e-16. A sixth of the time of exp_exact.
+double cbrt_exact(double x);
+
 /// Angle of (x, y) in (-pi, pi]; atan2_exact(0, 0) is 0, and y = -0 counts as 0. Absolute error <= 7e-16.
 double atan2_exact(double y, double x);
 
