@@ -207,6 +207,32 @@ TEST(Light, AreaSourcesKeepTheirSizeAndLuminance) {
     EXPECT_NEAR(sphere.light()["luminance_cd_m2"].get<double>(), 50 / (kPi * .01), 1e-4);
 }
 
+/// Until r154 WebGLLights multiplies every light but the rectangle by pi, and the BRDF divides by it: a white
+/// wall under a directional light of 1, 965.1 lx at EV 8, has a radiance of 1, and so has a rectangle of
+/// intensity 1: 965.1 / pi = 307.2 nit, whatever its size and the files' length.
+TEST(Light, LegacyRectanglesOfThreeAreAsBrightAsAWhiteWall) {
+    LightParams params = defaults();
+    params.reference_illuminance_lx = 0;
+    const auto scene = [](const char* version) {
+        return std::string("{\"metadata\": {\"version\": ") + version +
+               R"(}, "lights": [{"type": "DirectionalLight"},
+            {"type": "RectAreaLight", "width": 2, "height": 0.5, "intensity": 1},
+            {"type": "RectAreaLight", "width": 4, "height": 3, "intensity": 2}]})";
+    };
+    for (const double unit_m : {0., .01}) {
+        params.unit_m = unit_m;
+        const double metres = unit_m > 0 ? unit_m : 1;
+        const Baked old = bake_text(scene("4.5"), params);
+        EXPECT_NEAR(old.light(0)["illuminance_lx"].get<double>(), 965.0973, 1e-3);
+        EXPECT_NEAR(old.light(1)["luminance_cd_m2"].get<double>(), 307.2, 1e-4);
+        EXPECT_NEAR(old.light(2)["luminance_cd_m2"].get<double>(), 614.4, 1e-4);
+        EXPECT_NEAR(old.light(2)["intensity_cd"].get<double>(), 614.4 * 12 * metres * metres, 1e-3);
+        const Baked now = bake_text(scene("4.6"), params);
+        EXPECT_NEAR(now.light(0)["illuminance_lx"].get<double>(), 1, 1e-9);
+        EXPECT_NEAR(now.light(2)["luminance_cd_m2"].get<double>(), 2, 1e-8);
+    }
+}
+
 TEST(Light, ColourIsTemperatureTintAndLuminance) {
     const Baked white = bake_one(R"("unit": "cd", "intensity": 10)");
     EXPECT_NEAR(white.light()["colour"]["temperature_k"].get<double>(), 6504, 1);

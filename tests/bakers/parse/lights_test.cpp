@@ -249,7 +249,7 @@ TEST(Ac3dLights, StandInTheTreeOfObjects) {
 
 TEST(CsvLights, AreRowsOfNamedColumns) {
     const LightFile file = read(
-        "# lamps\nname,type,intensity,x,y,z,falloff,range\n\"a, b\",point,2,1,2,3,linear,10\nc,spot,,,,,,\n",
+        "# lamps\nname,type,intensity,x,y,z,falloff,range\n\"a, b\",point,2,1,2,3,linear,10\nc,spot,3,,,,,\n",
         "a.csv");
     ASSERT_EQ(file.lights.size(), 2u);
     EXPECT_EQ(file.lights[0].name, "a, b");
@@ -262,19 +262,80 @@ TEST(CsvLights, AreRowsOfNamedColumns) {
     EXPECT_THAT(refusal_of_lights("name,range\na,wide\n", "a.csv"), HasSubstr("found 'wide' as range"));
 }
 
+TEST(CsvLights, RefuseWhatIsEmptyOrOfNoUse) {
+    EXPECT_THAT(
+        refusal_of_lights("name,intensity\na,2\nb,\n", "a.csv"),
+        HasSubstr("a.csv:3: found '' as intensity; allowed: a finite number; without the column it is 1"));
+    EXPECT_EQ(read("name,x\na,\n", "a.csv").lights[0].intensity, 1);
+    EXPECT_THAT(
+        refusal_of_lights("falloff,linear\npolynomial,\n", "a.csv"),
+        HasSubstr("a.csv:2: found 'polynomial' as falloff; allowed: polynomial where its coefficients"));
+    // Cells of 0 and empty ones fill a table: they say nothing of a law that has no such number.
+    const LightFile filled = read("falloff,linear,exponent\ninverse,0,0\npolynomial,2,\n", "a.csv");
+    EXPECT_NEAR(pbr::falloff_at(filled.lights[0].falloff, 4), 1. / 4, 1e-15);
+    EXPECT_NEAR(pbr::falloff_at(filled.lights[1].falloff, 4), 1. / 8, 1e-15);
+}
+
 TEST(PlainLights, SayWhereTheyBreak) {
     EXPECT_THAT(refusal_of_lights("{\"lights\": [{\"intensity\": \"much\"}]}", "a.json"),
                 HasSubstr("a.json#/lights/0/intensity: found '\"much\"'; allowed: a finite number"));
     EXPECT_THAT(refusal_of_lights("{\"lights\": [{\"falloff\": \"cubic\"}]}", "a.json"),
                 HasSubstr("allowed: constant, linear"));
     EXPECT_THAT(refusal_of_lights("{\"lights\": [{\"falloff\": \"linear\"}]}", "a.json"),
-                HasSubstr("the ramp is dark"));
+                HasSubstr("a.json#/lights/0/range: found nothing; allowed: the distance at which"));
     EXPECT_THAT(refusal_of_lights("{\"lights\": 3}", "a.json"), HasSubstr("a.json#/lights: found '3'"));
     EXPECT_THAT(refusal_of_lights("{\"lights\": [,]}", "a.json"), HasSubstr("a.json:1:"));
     EXPECT_THAT(refusal_of_lights("{\"lamps\": []}", "a.json"), HasSubstr("without \"asset\""));
     EXPECT_THAT(refusal_of_lights("{\"unit\": \"furlong\", \"lights\": []}", "a.json"),
                 HasSubstr("allowed: relative, cd"));
     EXPECT_THAT(refusal_of_lights("[1]", "a.json"), HasSubstr("no object"));
+}
+
+/// The README: a polynomial's numbers are its three coefficients or `attenuation`, beside the name or in the
+/// object.
+TEST(PlainLights, PolynomialsAreTheSameInAllTheirForms) {
+    for (const char* fields :
+         {R"("falloff": {"kind": "polynomial", "attenuation": [1, 0.1, 0.5]})",
+          R"("falloff": {"attenuation": [1, 0.1, 0.5]})",
+          R"("falloff": {"kind": "polynomial", "constant": 1, "linear": 0.1, "quadratic": 0.5})",
+          R"("falloff": "polynomial", "attenuation": [1, 0.1, 0.5])", R"("attenuation": [1, 0.1, 0.5])",
+          R"("constant": 1, "linear": 0.1, "quadratic": 0.5)"}) {
+        const LightFile file = read(std::string("{\"lights\": [{") + fields + "}]}", "a.json");
+        for (const double d : {0., 1., 7.})
+            EXPECT_NEAR(pbr::falloff_at(file.lights[0].falloff, d) * (1 + .1 * d + .5 * d * d), 1, 1e-14)
+                << fields;
+    }
+    const LightFile power = read(R"({"lights": [{"falloff": "power", "exponent": 1.5}]})", "a.json");
+    EXPECT_NEAR(pbr::falloff_at(power.lights[0].falloff, 4), 1. / 8, 1e-14);
+}
+
+TEST(PlainLights, RefuseWhatHasNoMeaning) {
+    const auto of_light = [](const std::string& fields) {
+        return refusal_of_lights("{\"lights\": [{}, {" + fields + "}]}", "a.json");
+    };
+    EXPECT_THAT(refusal_of_lights(R"({"lights": [], "length": 1})", "a.json"),
+                HasSubstr("a.json#/length: unknown key; allowed: unit, length_m, up"));
+    EXPECT_THAT(of_light(R"("bogus": 3)"),
+                HasSubstr("a.json#/lights/1/bogus: unknown key; allowed: name, type, unit"));
+    EXPECT_THAT(of_light(R"("outer_degrees": 3)"), HasSubstr("did you mean \"outer_deg\"?"));
+    EXPECT_THAT(of_light(R"("falloff": {"kind": "inverse", "radius": 3})"),
+                HasSubstr("a.json#/lights/1/falloff/radius: unknown key; allowed: kind, constant"));
+    EXPECT_THAT(of_light(R"("falloff": {"kind": "inverse"}, "range": 3)"),
+                HasSubstr("a.json#/lights/1/range: found '3'; allowed: nothing here"));
+    EXPECT_THAT(
+        of_light(R"("falloff": {"kind": "polynomial"})"),
+        HasSubstr("/falloff/kind: found '\"polynomial\"'; allowed: polynomial where its coefficients"));
+    EXPECT_THAT(of_light(R"("falloff": "inverse", "quadratic": 2)"),
+                HasSubstr("/falloff: found '\"inverse\"'"));
+    EXPECT_THAT(of_light(R"("attenuation": [1, 0, 0], "linear": 2)"), HasSubstr("/linear: found '2'"));
+    EXPECT_THAT(of_light(R"("falloff": {"kind": "linear", "range": 3, "exponent": -1})"),
+                HasSubstr("/falloff/exponent: found '-1'; allowed: a number above 0"));
+    EXPECT_THAT(of_light(R"("falloff": "inverse", "exponent": 3)"), HasSubstr("/exponent: found '3'"));
+    EXPECT_THAT(of_light(R"("falloff": "smoothstep")"), HasSubstr("/range: found nothing"));
+    EXPECT_THAT(of_light(R"("falloff": "inverse", "window": "soft", "range": 2)"),
+                HasSubstr("/window: found '\"soft\"'; allowed: none, cut"));
+    EXPECT_THAT(of_light(R"("falloff": "cubic")"),
+                HasSubstr("/falloff: found '\"cubic\"'; allowed: constant"));
 }
 
 TEST(GltfLights, SayWhereTheyBreak) {
