@@ -154,6 +154,43 @@ LightNode $node1 { Name {string {"Lamp"}} ObjectRef {ref {$light1}}
     EXPECT_EQ(pbr::falloff_at(file.lights[0].falloff, 10), 1);  // an inverse curve never rises above 1
 }
 
+/// By hand: a node's transformations multiply from left to right, angles are of the file's metric (here
+/// degrees), and one of the object alone isn't handed down. (5, 0, 0) turned by 90 degrees about z is (0, 5,
+/// 0).
+TEST(OpenGexLights, StandWhereAllTransformationsOfTheirNodesPutThem) {
+    const LightFile file = read(R"(Metric (key = "angle") {float {0.017453292519943295}}
+LightObject $l (type = "spot") { Atten (kind = "cos_angle") { Param (attrib = "begin") {float {1}}
+                                                              Param (attrib = "end") {float {0.5}} } }
+LightNode { Name {string {"a"}} ObjectRef {ref {$l}}
+  Translation {float[3] {{10, 20, 30}}} Rotation (kind = "z") {float {90}} Translation (kind = "x") {float {5}} }
+LightNode { Name {string {"b"}} ObjectRef {ref {$l}} Rotation (kind = "x") {float {90}}
+  Scale (kind = "y") {float {3}} Translation (kind = "y") {float {2}} }
+Node { Transform (object = true) {float[16] {{1,0,0,0, 0,1,0,0, 0,0,1,0, 100,0,0,1}}}
+  Rotation {float[4] {{-90, 0, 2, 0}}}
+  LightNode { ObjectRef {ref {$l}} Transform (object = true) {float[16] {{1,0,0,0, 0,1,0,0, 0,0,1,0, 1,2,3,1}}}
+    Rotation (kind = "quaternion") {float[4] {{0, 0, 2, 2}}} } })",
+                                "a.ogex");
+    ASSERT_EQ(file.lights.size(), 3u);
+    const auto expect = [&](std::size_t i, const char* name, glm::dvec3 position, glm::dvec3 direction) {
+        EXPECT_EQ(file.lights[i].name, name);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(file.lights[i].position[k], position[k], 1e-12) << name << k;
+            EXPECT_NEAR(file.lights[i].direction[k], direction[k], 1e-12) << name << k;
+        }
+    };
+    expect(0, "a", {10, 25, 30}, {0, 0, -1});
+    expect(1, "b", {0, 0, 6}, {0, 1, 0});
+    // (1, 2, 3) by a quarter about z is (-2, 1, 3), by minus a quarter about y (x, z) -> (-z, x) is (-3, 1,
+    // -2).
+    expect(2, "l", {-3, 1, -2}, {1, 0, 0});
+    for (const char* wrong : {"Translation (kind = \"w\") {float {1}}", "Rotation {float[3] {{1, 2, 3}}}",
+                              "Transform {float[16] {{1}}}", "Scale (kind = \"x\") {float[3] {{1, 2, 3}}}"})
+        EXPECT_THAT(refusal_of_lights(std::string("Node {\n") + wrong + "} LightObject (type = \"point\") {}",
+                                      "a.ogex"),
+                    HasSubstr("a.ogex:2: has a "))
+            << wrong;
+}
+
 LegacyLight opengex_light(const std::string& type, const std::string& curves) {
     return read("LightObject (type = \"" + type + "\") {" + curves + "}", "a.ogex").lights.at(0);
 }
