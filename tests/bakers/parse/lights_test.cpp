@@ -284,6 +284,16 @@ TEST(Ac3dLights, StandInTheTreeOfObjects) {
                 HasSubstr("truncated"));
 }
 
+/// rot is a matrix by rows, for columns: (1, 2, 3) becomes (3, 2, -1), and stands at (10, 0, 0) from there.
+TEST(Ac3dLights, TurnWithTheirGroups) {
+    const LightFile file = read(
+        "AC3Db\nOBJECT world\nkids 1\nOBJECT group\nrot 0 0 1 0 1 0 -1 0 0\nloc 10 0 0\nkids 1\n"
+        "OBJECT light\nloc 1 2 3\nkids 0\n",
+        "a.ac");
+    ASSERT_EQ(file.lights.size(), 1u);
+    EXPECT_EQ(file.lights[0].position, glm::dvec3(13, 2, -1));
+}
+
 TEST(CsvLights, AreRowsOfNamedColumns) {
     const LightFile file = read(
         "# lamps\nname,type,intensity,x,y,z,falloff,range\n\"a, b\",point,2,1,2,3,linear,10\nc,spot,3,,,,,\n",
