@@ -98,7 +98,9 @@ class Survey {
         certificate.headline->curve = nullptr;  // it is one of the laws' below
         certificate.figures.push_back(*certificate.headline);
         certificate.figures.push_back(
-            measured("stops_max", all.max, "largest difference of any light at those distances"));
+            measured("stops_max", all.max,
+                     "largest difference of any light from the nearest of those distances to "
+                     "the farthest, ends included"));
         for (const auto& [kind, worst] : kinds_)
             certificate.figures.push_back(
                 worst.figure("stops_rms." + kind,

@@ -1,8 +1,10 @@
 #include "bakers/parse/json_fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bakers/job/json_text.hpp"
+#include "bakers/job/words.hpp"
 #include "bakers/parse/text.hpp"
 
 namespace pbrbake::parse {
@@ -50,6 +52,13 @@ void JsonFields::refuse(std::string_view key, std::string_view allowed) const {
     const std::string what = json_->is_object() && json_->contains(name) ? shown((*json_)[name]) : "nothing";
     throw Error(ExitCode::unreadable_input, joined(place_, key),
                 "found " + what + "; allowed: " + std::string(allowed));
+}
+
+void JsonFields::allow(const std::vector<std::string>& keys) const {
+    for (const auto& [key, value] : json_->items())
+        if (std::ranges::find(keys, key) == keys.end())
+            throw Error(ExitCode::unreadable_input, joined(place_, key),
+                        "unknown key; allowed: " + job::joined(keys) + job::did_you_mean(key, keys));
 }
 
 std::optional<double> JsonFields::number(std::initializer_list<std::string_view> keys) const {

@@ -41,6 +41,9 @@ class JsonFields {
     std::vector<std::size_t> indices(std::string_view key, std::size_t count) const;
     std::optional<std::size_t> index(std::string_view key, std::size_t count) const;
 
+    /// Throws for a key that is none of these: "place/key: unknown key; allowed: …".
+    void allow(const std::vector<std::string>& keys) const;
+
     /// Throws: "place/key: found …; allowed: …".
     [[noreturn]] void refuse(std::string_view key, std::string_view allowed) const;
 

@@ -34,7 +34,7 @@ class Reader {
             if (!is_open_) continue;
             if (*keyword == "name") light_.name = unquoted(trimmed(lines_[i]).substr(4));
             if (*keyword == "loc") read_numbers(i, 3, [&](int k, double v) { local_[3][k] = v; });
-            if (*keyword == "rot") read_numbers(i, 9, [&](int k, double v) { local_[k / 3][k % 3] = v; });
+            if (*keyword == "rot") read_numbers(i, 9, [&](int k, double v) { local_[k % 3][k / 3] = v; });
             if (*keyword == "data") i = after_data(i, words);
             if (*keyword == "kids") end(i);
         }

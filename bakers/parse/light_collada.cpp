@@ -181,13 +181,7 @@ class Collada : ColladaDocument {
                 product = product * matrix_of(glm::dvec3(0), {0, 0, 0, 1}, {v[0], v[1], v[2]});
             } else if (name == "rotate") {
                 const auto v = numbers(step, 4, 4);
-                const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-                if (!(length > 0)) continue;
-                const pbr::SinCos half = pbr::sin_cos_pi(std::fmod(v[3], 720.) / 360);
-                product = product * matrix_of(glm::dvec3(0),
-                                              {v[0] / length * half.sin, v[1] / length * half.sin,
-                                               v[2] / length * half.sin, half.cos},
-                                              glm::dvec3(1));
+                product = product * turn_about({v[0], v[1], v[2]}, v[3] / 180);
             }
         }
         return product;

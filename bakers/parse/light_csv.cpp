@@ -46,11 +46,14 @@ class Row {
             throw malformed(file, line,
                             "found " + std::to_string(cells.size()) + " cells; allowed: " +
                                 std::to_string(header.size()) + ", as many as the header has");
-        for (std::size_t i = 0; i < header.size(); ++i)
-            if (!cells[i].empty()) cells_[header[i]] = std::move(cells[i]);
+        for (std::size_t i = 0; i < header.size(); ++i) cells_[header[i]] = std::move(cells[i]);
     }
 
-    bool has(const std::string& column) const { return cells_.contains(column); }
+    /// Whether the column is there, and this line has nothing in it.
+    bool is_empty(const std::string& column) const {
+        return cells_.contains(column) && cells_.at(column).empty();
+    }
+    bool has(const std::string& column) const { return cells_.contains(column) && !is_empty(column); }
     std::string text(const std::string& column, const std::string& fallback) const {
         return has(column) ? cells_.at(column) : fallback;
     }
@@ -74,22 +77,17 @@ class Row {
 
 pbr::Falloff read_falloff(const Row& row, LightUnit unit) {
     PlainFalloff plain;
-    const bool has_coefficients = row.has("constant") || row.has("linear") || row.has("quadratic");
-    plain.range_is_stated = row.has("range");
-    plain.range = row.number("range", 0);
-    plain.kind =
-        row.text("falloff", has_coefficients                                       ? "polynomial"
-                            : plain.range_is_stated && unit == LightUnit::relative ? "linear"
-                                                                                   : "inverse_square");
+    plain.kind = row.text("falloff", "");
+    plain.states_coefficients = row.has("constant") || row.has("linear") || row.has("quadratic");
     plain.constant = row.number("constant", 0);
     plain.linear = row.number("linear", 0);
     plain.quadratic = row.number("quadratic", 0);
-    plain.exponent = row.number("exponent", 0);
+    if (row.has("exponent")) plain.exponent = row.number("exponent", 0);
+    if (row.has("range")) plain.range = row.number("range", 0);
     plain.window = row.text("window", "");
     pbr::Falloff law;
-    if (!make_falloff(plain, law)) row.refuse("falloff", kFalloffNames);
-    if (law.window == pbr::FalloffWindow::ramp && !plain.range_is_stated)
-        row.refuse("range", "the distance at which the ramp is dark");
+    if (const auto mistake = make_falloff(plain, unit, law))
+        row.refuse(std::string(mistake->field), std::string(mistake->allowed));
     return law;
 }
 
@@ -101,6 +99,7 @@ LegacyLight read_light(const Row& row, int line) {
     const auto unit = light_unit(row.text("unit", "relative"));
     if (!unit || unit_for(light.type, *unit) != *unit) row.refuse("unit", kLightUnitNames);
     light.unit = *unit;
+    if (row.is_empty("intensity")) row.refuse("intensity", "a finite number; without the column it is 1");
     light.intensity = row.number("intensity", 1);
     light.colour = {row.number("r", 1), row.number("g", 1), row.number("b", 1)};
     light.position = {row.number("x", 0), row.number("y", 0), row.number("z", 0)};

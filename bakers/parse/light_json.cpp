@@ -1,9 +1,8 @@
 // The plain JSON format: {"unit": "relative", "length_m": 1, "lights": [{"type": "point", …}]}. README.md of
 // bakers/light describes it.
 
-#include <algorithm>
-#include <array>
-#include <span>
+#include <string>
+#include <vector>
 
 #include "bakers/parse/json_fields.hpp"
 #include "bakers/parse/light_formats.hpp"
@@ -12,6 +11,33 @@
 
 namespace pbrbake::parse {
 namespace {
+
+using Keys = std::vector<std::string>;
+
+const Keys kFileKeys{"unit", "length_m", "up", "colours", "colors", "lights"};
+const Keys kLawKeys{"constant", "linear", "quadratic", "attenuation", "exponent", "range", "window"};
+const Keys kLightKeys{"name",      "type",      "unit",          "intensity", "colour", "color",
+                      "position",  "direction", "radius",        "width",     "height", "inner_deg",
+                      "outer_deg", "spot_law",  "spot_exponent", "falloff"};
+
+Keys both(Keys keys, const Keys& others) {
+    keys.insert(keys.end(), others.begin(), others.end());
+    return keys;
+}
+
+bool is_falloff_object(const JsonFields& light) {
+    return light.has("falloff") && light.json()["falloff"].is_object();
+}
+
+/// Refuses what is no field of a light or of its falloff. A falloff that is an object holds all of its law.
+void check_keys(const JsonFields& light) {
+    static const Keys light_keys = both(kLightKeys, kLawKeys), falloff_keys = both({"kind"}, kLawKeys);
+    light.allow(light_keys);
+    if (!is_falloff_object(light)) return;
+    light.object({"falloff"})->allow(falloff_keys);
+    for (const std::string& key : kLawKeys)
+        if (light.has(key)) light.refuse(key, "nothing here beside a falloff that is an object, but in it");
+}
 
 int hex_digit(char c) {
     return c >= '0' && c <= '9'   ? c - '0'
@@ -39,43 +65,38 @@ void read_colour(const JsonFields& fields, LegacyLight& light) {
     light.encoding = ColourEncoding::srgb;
 }
 
-pbr::Falloff read_falloff(const JsonFields& light, LightUnit unit) {
+/// The numbers of a law, beside its name.
+PlainFalloff read_law(const JsonFields& fields) {
     PlainFalloff plain;
-    const auto take = [&](const JsonFields& from) {
-        plain.constant = from.number({"constant", "constant_attenuation"}, plain.constant);
-        plain.linear = from.number({"linear", "linear_attenuation"}, plain.linear);
-        plain.quadratic = from.number({"quadratic", "quadratic_attenuation"}, plain.quadratic);
-        plain.exponent = from.number({"exponent"}, plain.exponent);
-        plain.window = from.text({"window"}, plain.window);
-        if (const auto range = from.number({"range"})) plain.range = *range, plain.range_is_stated = true;
-        for (const char* key : {"constant", "linear", "quadratic", "constant_attenuation",
-                                "linear_attenuation", "quadratic_attenuation"})
-            if (from.has(key) && plain.kind.empty()) plain.kind = "polynomial";
+    const auto list = fields.vector({"attenuation"});
+    if (list) plain.constant = list->x, plain.linear = list->y, plain.quadratic = list->z;
+    plain.states_coefficients = list.has_value();
+    const auto read = [&](const char* key, double& coefficient) {
+        const auto value = fields.number({key});
+        if (!value) return;
+        if (list) fields.refuse(key, "none beside attenuation, which holds it");
+        coefficient = *value;
+        plain.states_coefficients = true;
     };
-    if (const auto range = light.number({"range"})) plain.range = *range, plain.range_is_stated = true;
-    const JsonFields* named = &light;
-    std::optional<JsonFields> inner;
-    if (light.has("falloff") && light.json()["falloff"].is_string()) {
-        plain.kind = light.text({"falloff"}, "");
-    } else if ((inner = light.object({"falloff"}))) {
-        plain.kind = inner->text({"kind"}, "");
-        named = &*inner;
-        take(*inner);
-    } else if (light.has("attenuation") && light.json()["attenuation"].is_array()) {
-        const auto list = light.vector({"attenuation"});
-        plain.kind = "polynomial";
-        plain.constant = list->x, plain.linear = list->y, plain.quadratic = list->z;
-    } else if ((inner = light.object({"attenuation"}))) {
-        take(*inner);
-    } else {
-        take(light);
-    }
-    const bool is_physical = unit != LightUnit::relative;
-    if (plain.kind.empty()) plain.kind = plain.range_is_stated && !is_physical ? "linear" : "inverse_square";
+    read("constant", plain.constant);
+    read("linear", plain.linear);
+    read("quadratic", plain.quadratic);
+    plain.exponent = fields.number({"exponent"});
+    plain.range = fields.number({"range"});
+    plain.window = fields.text({"window"}, "");
+    return plain;
+}
+
+/// `falloff` is an object that holds all of its law, or a name (or nothing) beside the law's numbers.
+pbr::Falloff read_falloff(const JsonFields& light, LightUnit unit) {
+    const bool is_object = is_falloff_object(light);
+    const JsonFields fields = is_object ? *light.object({"falloff"}) : light;
+    const char* const name = is_object ? "kind" : "falloff";
+    PlainFalloff plain = read_law(fields);
+    plain.kind = fields.text({name}, "");
     pbr::Falloff law;
-    if (!make_falloff(plain, law)) named->refuse(named == &light ? "falloff" : "kind", kFalloffNames);
-    if (law.window == pbr::FalloffWindow::ramp && !plain.range_is_stated)
-        named->refuse("range", "the distance at which the ramp is dark");
+    if (const auto mistake = make_falloff(plain, unit, law))
+        fields.refuse(mistake->field == "falloff" ? name : mistake->field, mistake->allowed);
     return law;
 }
 
@@ -99,34 +120,9 @@ pbr::SpotFalloff read_spot(const JsonFields& light) {
     return spot;
 }
 
-/// Members that describe a falloff, of a light or of an object in it.
-constexpr std::array<std::string_view, 9> kFalloffMembers{
-    "constant",  "constant_attenuation",  "exponent", "linear", "linear_attenuation",
-    "quadratic", "quadratic_attenuation", "range",    "window"};
-constexpr std::array<std::string_view, 17> kLightMembers{
-    "attenuation",   "color",     "colour", "direction", "falloff",  "height",
-    "inner_deg",     "intensity", "name",   "outer_deg", "position", "radius",
-    "spot_exponent", "spot_law",  "type",   "unit",      "width"};
-
-/// A misspelt member would change a light unseen.
-void tell_unread(const JsonFields& fields, std::vector<Diagnostic>& diagnostics) {
-    const auto tell = [&](const Json& members, std::span<const std::string_view> known,
-                          const std::string& where) {
-        for (const auto& [key, value] : members.items())
-            if (std::ranges::find(known, key) == known.end() &&
-                std::ranges::find(kFalloffMembers, key) == kFalloffMembers.end())
-                diagnostics.push_back({Severity::warning, "unread", 0,
-                                       "has " + parse::quoted(key) + where + ", which isn't read"});
-    };
-    constexpr std::array<std::string_view, 1> kKind{"kind"};
-    tell(fields.json(), kLightMembers, "");
-    for (const std::string key : {"falloff", "attenuation"})
-        if (fields.has(key) && fields.json()[key].is_object())
-            tell(fields.json()[key], kKind, " in its " + key);
-}
-
 LegacyLight read_light(const JsonFields& fields, LightUnit file_unit, ColourEncoding encoding,
                        std::size_t i) {
+    check_keys(fields);
     LegacyLight light;
     light.name = fields.text({"name"}, "light " + std::to_string(i));
     if (!read_light_type(fields.text({"type"}, "point"), light.type)) fields.refuse("type", kLightTypeNames);
@@ -149,7 +145,6 @@ LegacyLight read_light(const JsonFields& fields, LightUnit file_unit, ColourEnco
     if (light.type != LightType::directional && light.type != LightType::ambient)
         light.falloff = read_falloff(fields, light.unit);
     if (light.type == LightType::spot) light.spot = read_spot(fields);
-    tell_unread(fields, light.diagnostics);
     return light;
 }
 
@@ -159,6 +154,7 @@ LightFile parse_plain_lights(const Json& json, const std::string& file) {
     const JsonFields root(json, file);
     LightFile lights;
     lights.format = "plain JSON";
+    root.allow(kFileKeys);
     const auto unit = light_unit(root.text({"unit"}, "relative"));
     if (!unit) root.refuse("unit", kLightUnitNames);
     lights.meaning = *unit == LightUnit::relative

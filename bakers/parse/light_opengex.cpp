@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "bakers/parse/light_formats.hpp"
 #include "bakers/parse/scene_transform.hpp"
@@ -201,11 +202,10 @@ class Reader {
     }
 
     LightFile read(const std::vector<Structure>& structures) {
-        double angle = 1;
         for (const Structure& s : structures)
-            if (s.type == "Metric") metric(s, angle);
+            if (s.type == "Metric") metric(s);
         for (const Structure& s : structures)
-            if (s.type == "LightObject") objects_.push_back({s.name, read_light(s, angle), false});
+            if (s.type == "LightObject") objects_.push_back({s.name, read_light(s, angle_rad_), false});
         for (const Structure& s : structures) walk(s, glm::dmat4(1));
         for (const Object& object : objects_)
             if (!object.is_used) {
@@ -224,7 +224,7 @@ class Reader {
         bool is_used;
     };
 
-    void metric(const Structure& s, double& angle) {
+    void metric(const Structure& s) {
         const std::string key = s.property("key", "");
         if (key == "distance") {
             lights_.unit_m = number_of_data(s, file_);
@@ -232,7 +232,7 @@ class Reader {
             if (!(lights_.unit_m > 0))
                 throw malformed(file_, s.line, "states a distance metric that isn't above 0");
         }
-        if (key == "angle") angle = number_of_data(s, file_);
+        if (key == "angle") angle_rad_ = number_of_data(s, file_);
         if (key == "up" && s.data() && !s.data()->texts.empty())
             lights_.up = s.data()->texts.front() == "y" ? UpAxis::y : UpAxis::z;
     }
@@ -358,12 +358,60 @@ class Reader {
              "cone");
     }
 
+    std::vector<double> numbers_of(const Structure& s, std::size_t count) const {
+        if (!s.data() || s.data()->numbers.size() != count)
+            throw malformed(file_, s.line,
+                            "has a " + s.type + " of other than " + std::to_string(count) + " numbers");
+        return s.data()->numbers;
+    }
+
+    glm::dvec3 axis_of(const Structure& s, const std::string& kind) const {
+        if (kind == "x") return {1, 0, 0};
+        if (kind == "y") return {0, 1, 0};
+        if (kind == "z") return {0, 0, 1};
+        throw malformed(file_, s.line, "has a " + s.type + " of kind " + parse::quoted(kind));
+    }
+
+    /// Three numbers, or the one along an axis and `others` along the others.
+    glm::dvec3 vector_of(const Structure& s, double others) const {
+        const std::string kind = s.property("kind", "xyz");
+        if (kind != "xyz") return glm::dvec3(others) + axis_of(s, kind) * (numbers_of(s, 1).front() - others);
+        const std::vector<double> v = numbers_of(s, 3);
+        return {v[0], v[1], v[2]};
+    }
+
+    glm::dmat4 rotation_of(const Structure& s) const {
+        const std::string kind = s.property("kind", "axis");
+        const double half_turns = angle_rad_ / std::numbers::pi;
+        if (kind != "axis" && kind != "quaternion")
+            return turn_about(axis_of(s, kind), numbers_of(s, 1).front() * half_turns);
+        std::vector<double> v = numbers_of(s, 4);
+        if (kind == "axis") return turn_about({v[1], v[2], v[3]}, v[0] * half_turns);
+        const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3]);
+        if (!(length > 0)) return glm::dmat4(1);
+        for (double& number : v) number /= length;
+        return matrix_of(glm::dvec3(0), v, glm::dvec3(1));
+    }
+
+    /// One of a node's transformations, with the kinds and defaults of Lengyel's importer (MatrixStructure
+    /// and its kin). The identity for any other structure.
+    glm::dmat4 transformation(const Structure& s) const {
+        if (s.type == "Transform") return matrix_of(numbers_of(s, 16));
+        if (s.type == "Translation") return matrix_of(vector_of(s, 0), {0, 0, 0, 1}, glm::dvec3(1));
+        if (s.type == "Scale") return matrix_of(glm::dvec3(0), {0, 0, 0, 1}, vector_of(s, 1));
+        return s.type == "Rotation" ? rotation_of(s) : glm::dmat4(1);
+    }
+
     void walk(const Structure& s, const glm::dmat4& above) {
         if (!s.type.ends_with("Node")) return;
-        glm::dmat4 world = above;
-        for (const Structure& child : s.children)
-            if (child.type == "Transform" && child.data() && child.data()->numbers.size() == 16)
-                world = world * matrix_of(child.data()->numbers);
+        glm::dmat4 world = above, own(1);  // the latter is not handed down to nodes below
+        std::string name;
+        for (const Structure& child : s.children) {
+            glm::dmat4& product = child.property("object", "false") == "true" ? own : world;
+            product = product * transformation(child);
+            if (child.type == "Name" && child.data() && !child.data()->texts.empty())
+                name = child.data()->texts.front();
+        }
         for (const Structure& child : s.children) {
             walk(child, world);
             if (s.type != "LightNode" || child.type != "ObjectRef" || !child.data() ||
@@ -378,12 +426,14 @@ class Reader {
                     "places the light " + parse::quoted(child.data()->texts.front()) + ", which isn't there");
             found->is_used = true;
             LegacyLight light = found->light;
-            place(light, world);
+            if (!name.empty()) light.name = name;
+            place(light, world * own);
             lights_.lights.push_back(std::move(light));
         }
     }
 
     const std::string& file_;
+    double angle_rad_ = 1;  ///< radians of an angle of 1
     std::vector<Object> objects_;
     LightFile lights_;
 };

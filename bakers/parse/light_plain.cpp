@@ -1,5 +1,6 @@
 #include "bakers/parse/light_plain.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -13,61 +14,83 @@ namespace {
 
 using pbr::FalloffWindow;
 
-bool read_window(const std::string& name, FalloffWindow& window) {
-    constexpr std::array<std::pair<std::string_view, FalloffWindow>, 7> kNames{
-        {{"none", FalloffWindow::none},
-         {"cut", FalloffWindow::cut},
-         {"ramp", FalloffWindow::ramp},
-         {"smoothstep", FalloffWindow::smoothstep},
-         {"smootherstep", FalloffWindow::smootherstep},
-         {"quartic", FalloffWindow::quartic},
-         {"quartic_squared", FalloffWindow::quartic_squared}}};
-    for (const auto& [word, value] : kNames)
-        if (word == name) {
-            window = value;
-            return true;
-        }
-    return false;
+constexpr std::string_view kFalloffNames =
+    "constant, linear, ramp, smoothstep, inverse, inverse_square, polynomial, power";
+constexpr std::array<std::pair<std::string_view, FalloffWindow>, 7> kWindows{
+    {{"none", FalloffWindow::none},
+     {"cut", FalloffWindow::cut},
+     {"ramp", FalloffWindow::ramp},
+     {"smoothstep", FalloffWindow::smoothstep},
+     {"smootherstep", FalloffWindow::smootherstep},
+     {"quartic", FalloffWindow::quartic},
+     {"quartic_squared", FalloffWindow::quartic_squared}}};
+
+/// The law of a name, and the window that it has where a range is stated. False for no name.
+bool read_kind(const PlainFalloff& plain, pbr::Falloff& law, FalloffWindow& usual) {
+    usual = FalloffWindow::cut;
+    if (plain.kind == "constant") return true;
+    if (plain.kind == "linear" || plain.kind == "ramp") {
+        usual = FalloffWindow::ramp;
+        law.exponent = plain.exponent.value_or(1);
+    } else if (plain.kind == "smoothstep") {
+        usual = FalloffWindow::smoothstep;
+    } else if (plain.kind == "inverse") {
+        law.constant = 0, law.linear = 1;
+    } else if (plain.kind == "inverse_square") {
+        law.constant = 0, law.quadratic = 1;
+        usual = FalloffWindow::quartic_squared;
+    } else if (plain.kind == "polynomial") {
+        law.constant = plain.constant, law.linear = plain.linear, law.quadratic = plain.quadratic;
+    } else if (plain.kind == "power") {
+        law.power = plain.exponent.value_or(2);
+        usual = FalloffWindow::quartic_squared;
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/// Numbers that the law lacks, or has no use for unless they are 0, as tables fill their cells.
+std::optional<PlainMistake> mistake_of(const PlainFalloff& plain) {
+    const bool is_ramp = plain.kind == "linear" || plain.kind == "ramp";
+    if (is_ramp || plain.kind == "power") {
+        if (plain.exponent && !(*plain.exponent > 0)) return PlainMistake{"exponent", "a number above 0"};
+    } else if (plain.exponent.value_or(0) != 0) {
+        return PlainMistake{"exponent", "none with this falloff; power, linear and ramp have one"};
+    }
+    const bool has_coefficients = plain.constant != 0 || plain.linear != 0 || plain.quadratic != 0;
+    if (plain.kind == "polynomial" ? !plain.states_coefficients : has_coefficients)
+        return PlainMistake{"falloff", "polynomial where its coefficients are stated, and only there"};
+    if ((is_ramp || plain.kind == "smoothstep" || !plain.window.empty()) && plain.window != "none" &&
+        !plain.range)
+        return PlainMistake{"range", "the distance at which the light is dark, which its falloff needs"};
+    return {};
 }
 
 }  // namespace
 
-const char* const kFalloffNames =
-    "constant, linear, inverse, inverse_square, polynomial, power, ramp, smoothstep; window: none, cut, "
-    "ramp, "
-    "smoothstep, smootherstep, quartic, quartic_squared";
 const char* const kLightTypeNames = "point, spot, directional, ambient, sphere, rectangle";
 const char* const kLightUnitNames = "relative, cd, lm, lm_over_pi, lm_over_4pi, lx, nit, W, W/sr, W/m2";
 
-bool make_falloff(const PlainFalloff& plain, pbr::Falloff& law) {
+std::optional<PlainMistake> make_falloff(PlainFalloff plain, LightUnit unit, pbr::Falloff& law) {
+    if (plain.kind.empty())
+        plain.kind = plain.states_coefficients                    ? "polynomial"
+                     : plain.range && unit == LightUnit::relative ? "linear"
+                                                                  : "inverse_square";
     law = pbr::Falloff{};
-    if (plain.range_is_stated) law.range = plain.range;
-    const auto ends_by = [&](FalloffWindow window) {
-        if (plain.range_is_stated) law.window = window;
-    };
-    if (plain.kind == "constant") {
-        ends_by(FalloffWindow::cut);
-    } else if (plain.kind == "linear" || plain.kind == "ramp") {
-        law.window = FalloffWindow::ramp;
-        if (plain.exponent > 0) law.exponent = plain.exponent;
-    } else if (plain.kind == "smoothstep") {
-        law.window = FalloffWindow::smoothstep;
-    } else if (plain.kind == "inverse") {
-        law.constant = 0, law.linear = 1;
-        ends_by(FalloffWindow::cut);
-    } else if (plain.kind == "inverse_square") {
-        law.constant = 0, law.quadratic = 1;
-        ends_by(FalloffWindow::quartic_squared);
-    } else if (plain.kind == "polynomial") {
-        law.constant = plain.constant, law.linear = plain.linear, law.quadratic = plain.quadratic;
-        ends_by(FalloffWindow::cut);
-    } else if (plain.kind == "power") {
-        law.power = plain.exponent > 0 ? plain.exponent : 2;
-        ends_by(FalloffWindow::quartic_squared);
-    } else {
-        return false;
+    FalloffWindow window;
+    if (!read_kind(plain, law, window)) return PlainMistake{"falloff", kFalloffNames};
+    if (!plain.window.empty()) {
+        const auto named =
+            std::ranges::find(kWindows, plain.window, [](const auto& pair) { return pair.first; });
+        if (named == kWindows.end())
+            return PlainMistake{"window",
+                                "none, cut, ramp, smoothstep, smootherstep, quartic, quartic_squared"};
+        window = named->second;
     }
-    return plain.window.empty() || read_window(plain.window, law.window);
+    if (const auto mistake = mistake_of(plain)) return mistake;
+    if (plain.range) law.range = *plain.range, law.window = window;
+    return {};
 }
 
 bool read_light_type(std::string_view word, LightType& type) {

@@ -1,28 +1,34 @@
 #pragma once
 // Words that the plain JSON and CSV formats share.
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "bakers/parse/lights.hpp"
 
 namespace pbrbake::parse {
 
 /// A light's falloff by the name of its law, with the numbers that the law takes; README.md of bakers/light
-/// has the table. Throws std::string, the names allowed, for another name.
+/// has the table.
 struct PlainFalloff {
-    std::string kind;
+    std::string kind;  ///< "": polynomial beside coefficients, linear beside a range, else inverse_square
+    bool states_coefficients = false;
     double constant = 0, linear = 0, quadratic = 0;
-    double exponent = 0;  ///< of "power" and "ramp"; 0: the law's usual one
-    double range = 0;     ///< 0: not stated
-    bool range_is_stated = false;
-    std::string window;  ///< "" : the law's usual one
+    std::optional<double>
+        exponent;  ///< of "power", "linear" and "ramp"; nothing: 2 of power, 1 of the others
+    std::optional<double> range;
+    std::string window;  ///< "": the law's usual one
 };
 
-/// Names of laws: "constant", "linear", …
-extern const char* const kFalloffNames;
+/// What a file may not say: the field, "falloff" for the law's name, and what is allowed there.
+struct PlainMistake {
+    std::string_view field, allowed;
+};
 
-/// Whether `plain` named laws that there are; fills `law`.
-bool make_falloff(const PlainFalloff& plain, pbr::Falloff& law);
+/// Fills `law`, or says why it can't: names that there aren't, numbers that the law lacks or has no use for.
+/// A range beside no name is linear's where the unit is relative, and ends an inverse square elsewhere.
+std::optional<PlainMistake> make_falloff(PlainFalloff plain, LightUnit unit, pbr::Falloff& law);
 
 /// "point", "spot", …; false for another word.
 bool read_light_type(std::string_view word, LightType& type);

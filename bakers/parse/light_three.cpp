@@ -4,6 +4,9 @@
 // migration note "Updates to lighting in three.js r155"). Files tell their format's version only: 4.6, which
 // came with r153, is read as physical, older ones as legacy.
 
+#include <cmath>
+#include <numbers>
+
 #include "bakers/parse/json_fields.hpp"
 #include "bakers/parse/light_formats.hpp"
 #include "bakers/parse/scene_transform.hpp"
@@ -79,12 +82,7 @@ class Reader {
         light.intensity = fields.number({"intensity"}, 1);
         light.colour = colour_of(fields, "color");
         if (type == "HemisphereLight") light.colour = (light.colour + colour_of(fields, "groundColor")) / 2.;
-        if (light.type == LightType::rectangle)
-            light.unit = LightUnit::nit;
-        else if (is_physical_)
-            light.unit = light.type == LightType::directional || light.type == LightType::ambient
-                             ? LightUnit::lux
-                             : LightUnit::candela;
+        set_unit(light);
         if (fields.has("target"))
             light.diagnostics.push_back(
                 {Severity::note, "target", 0, "has a target of its own; taken to be at the origin"});
@@ -111,6 +109,18 @@ class Reader {
     }
 
   private:
+    /// A legacy rectangle alone is not scaled by pi (WebGLLights: "intensity is the brightness of the
+    /// light"): one of 1 looks as bright as a white wall lit by 1, so that the luminance is 1 / pi of that
+    /// illuminance.
+    void set_unit(LegacyLight& light) const {
+        const bool is_rectangle = light.type == LightType::rectangle;
+        const bool is_far = light.type == LightType::directional || light.type == LightType::ambient;
+        if (is_physical_)
+            light.unit = is_rectangle ? LightUnit::nit : is_far ? LightUnit::lux : LightUnit::candela;
+        else if (is_rectangle)
+            light.intensity *= std::abs(light.width * light.height) / std::numbers::pi;
+    }
+
     bool is_physical_;
     LightFile& file_;
 };

@@ -32,29 +32,33 @@ class Collada : ColladaDocument {
         for (const pugi::xml_node effect : root_.child("library_effects").children("effect"))
             effects.emplace(effect.attribute("id").value(), effect);
         for (const pugi::xml_node node : root_.child("library_materials").children("material")) {
-            const std::string url = reference(node.child("instance_effect").attribute("url").value());
-            const auto found = effects.find(url);
-            if (found == effects.end())
-                throw malformed(file_, line_of(node),
-                                "names the effect " + parse::quoted(url) + ", which isn't there");
-            add(node, found->second, result);
+            LegacyMaterial& material = begin(node, result);
+            read_alone(material, [&] {
+                const std::string url = reference(node.child("instance_effect").attribute("url").value());
+                const auto found = effects.find(url);
+                if (found == effects.end())
+                    throw malformed(file_, line_of(node),
+                                    "names the effect " + parse::quoted(url) + ", which isn't there");
+                read_effect(found->second, material);
+            });
         }
         if (result.materials.empty())  // a library of effects alone
-            for (const pugi::xml_node effect : root_.child("library_effects").children("effect"))
-                add(effect, effect, result);
+            for (const pugi::xml_node effect : root_.child("library_effects").children("effect")) {
+                LegacyMaterial& material = begin(effect, result);
+                read_alone(material, [&] { read_effect(effect, material); });
+            }
         return result;
     }
 
   private:
-    void add(const pugi::xml_node& named, const pugi::xml_node& effect, MaterialFile& result) {
+    LegacyMaterial& begin(const pugi::xml_node& named, MaterialFile& result) const {
         if (result.materials.size() == kMostMaterials)
             throw malformed(file_, line_of(named), "is past 100000 materials");
-        LegacyMaterial material;
+        LegacyMaterial& material = result.materials.emplace_back();
         material.id = named.attribute("id").value();
         material.name = named.attribute("name") ? named.attribute("name").value() : material.id;
         material.line = line_of(named);
-        read_effect(effect, material);
-        result.materials.push_back(std::move(material));
+        return material;
     }
 
     void read_effect(const pugi::xml_node& effect, LegacyMaterial& material) {

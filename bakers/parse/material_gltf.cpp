@@ -26,12 +26,19 @@ class Gltf {
         if (list.size() > kMostMaterials) root_.refuse("materials", "at most 100000 materials");
         std::size_t metallic = 0;
         for (std::size_t i = 0; i < list.size(); ++i) {
-            const auto extensions = list[i].object({"extensions"});
-            const auto gloss = extensions ? extensions->object({kExtension}) : std::nullopt;
-            if (gloss)
-                result.materials.push_back(read_material(list[i], *gloss, i));
-            else
+            LegacyMaterial material;
+            material.name = "material " + std::to_string(i);
+            bool is_metallic = false;
+            read_alone(material, [&] {
+                const auto extensions = list[i].object({"extensions"});
+                const auto gloss = extensions ? extensions->object({kExtension}) : std::nullopt;
+                is_metallic = !gloss;
+                if (gloss) read_material(list[i], *gloss, material);
+            });
+            if (is_metallic)
                 ++metallic;
+            else
+                result.materials.push_back(std::move(material));
         }
         if (result.materials.empty() && metallic > 0)
             throw malformed(
@@ -86,9 +93,8 @@ class Gltf {
         return result;
     }
 
-    LegacyMaterial read_material(const JsonFields& fields, const JsonFields& gloss, std::size_t i) const {
-        LegacyMaterial material;
-        material.name = fields.text({"name"}, "material " + std::to_string(i));
+    void read_material(const JsonFields& fields, const JsonFields& gloss, LegacyMaterial& material) const {
+        material.name = fields.text({"name"}, material.name);
         material.lobe = MaterialLobe::specular_gloss;
         const std::vector<double> diffuse = colour(gloss, "diffuseFactor", {1, 1, 1, 1}),
                                   specular = colour(gloss, "specularFactor", {1, 1, 1}),
@@ -109,7 +115,6 @@ class Gltf {
         read_alpha(fields, material);
         material.emissive = map(fields, "emissiveTexture", material);
         material.emissive_factor = strength(fields) * glm::dvec3(emissive[0], emissive[1], emissive[2]);
-        return material;
     }
 
     static double strength(const JsonFields& fields) {

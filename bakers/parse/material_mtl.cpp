@@ -88,8 +88,10 @@ class Mtl {
             begin(line);
         } else if (result_.materials.empty()) {
             throw malformed(file_, line_, "found " + parse::quoted(key) + " before the first newmtl");
-        } else if (!read_map(key, line)) {
-            read_value(key, line);
+        } else {
+            read_alone(material(), [&] {
+                if (!read_map(key, line)) read_value(key, line);
+            });
         }
     }
 

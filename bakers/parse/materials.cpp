@@ -25,6 +25,29 @@ MaterialFile parse_json_materials(std::span<const std::byte> bytes, const std::s
     return materials;
 }
 
+/// The fields of a texture bake, by which plain JSON states a material.
+void read_stated(const JsonFields& fields, LegacyMaterial& material) {
+    material.lobe = MaterialLobe::stated;
+    const std::string name = fields.text({"name"}, "");
+    if (name.empty()) fields.refuse("name", "a name, which each material has");
+    material.name = name;
+    const std::array<std::pair<const char*, MaterialMap*>, 7> maps{{{"diffuse", &material.diffuse},
+                                                                    {"specular", &material.specular},
+                                                                    {"gloss", &material.gloss},
+                                                                    {"normal", &material.normal},
+                                                                    {"occlusion", &material.occlusion},
+                                                                    {"opacity", &material.opacity},
+                                                                    {"emissive", &material.emissive}}};
+    material.fields = fields.json();
+    material.fields.erase("name");
+    for (const auto& [key, map] : maps) {
+        map->said = fields.place() + "/" + key;
+        map->path = fields.text({key}, "");
+        std::ranges::replace(map->path, '\\', '/');
+        material.fields.erase(key);
+    }
+}
+
 std::string names_of(const MaterialFile& materials) {
     constexpr std::size_t kMost = 20;
     std::vector<std::string> names;
@@ -84,26 +107,9 @@ MaterialFile parse_plain_materials(const Json& json, const std::string& file) {
     const std::vector<JsonFields> list = root.objects("materials");
     if (list.size() > kMostMaterials) root.refuse("materials", "at most 100000 materials");
     for (const JsonFields& fields : list) {
-        LegacyMaterial material;
-        material.lobe = MaterialLobe::stated;
-        material.name = fields.text({"name"}, "");
-        if (material.name.empty()) fields.refuse("name", "a name, which each material has");
-        const std::array<std::pair<const char*, MaterialMap*>, 7> maps{{{"diffuse", &material.diffuse},
-                                                                        {"specular", &material.specular},
-                                                                        {"gloss", &material.gloss},
-                                                                        {"normal", &material.normal},
-                                                                        {"occlusion", &material.occlusion},
-                                                                        {"opacity", &material.opacity},
-                                                                        {"emissive", &material.emissive}}};
-        material.fields = fields.json();
-        material.fields.erase("name");
-        for (const auto& [key, map] : maps) {
-            map->said = fields.place() + "/" + key;
-            map->path = fields.text({key}, "");
-            std::ranges::replace(map->path, '\\', '/');
-            material.fields.erase(key);
-        }
-        result.materials.push_back(std::move(material));
+        LegacyMaterial& material = result.materials.emplace_back();
+        material.name = "material " + std::to_string(result.materials.size() - 1);
+        read_alone(material, [&] { read_stated(fields, material); });
     }
     return result;
 }

@@ -70,7 +70,19 @@ struct LegacyMaterial {
     bool is_clamped = false;  ///< its textures end at their edges
     Json fields = nullptr;    ///< plain JSON: fields of a texture bake, but for its maps
     std::vector<Diagnostic> diagnostics;
+    std::optional<Error> error;  ///< what of it can't be read, the first of it: then nothing else here counts
 };
+
+/// Reads a part of a material. What it throws is the material's own error: the file's others are none the
+/// worse.
+template <class Read>
+void read_alone(LegacyMaterial& material, const Read& read) {
+    try {
+        read();
+    } catch (const Error& error) {
+        if (!material.error) material.error = error;
+    }
+}
 
 struct MaterialFile {
     std::string format;  ///< "Wavefront MTL"
@@ -87,8 +99,8 @@ std::string extension_of(std::string_view file);
 /// Whether parse_materials reads files that end so: ".mtl", ".gltf", ".glb", ".dae", ".json", in any case.
 bool has_material_extension(std::string_view file);
 
-/// Reads MTL, glTF, COLLADA and plain JSON, by extension. Throws Error(unreadable_input) for what is
-/// malformed, and for a file without materials.
+/// Reads MTL, glTF, COLLADA and plain JSON, by extension. A material that is malformed has its `error`;
+/// throws Error(unreadable_input) for a file that is malformed as a whole, and for one without materials.
 MaterialFile parse_materials(std::span<const std::byte> bytes, const std::string& file);
 
 /// The material of a name, or else of an id. Throws Error(unreadable_input) that lists what there is.

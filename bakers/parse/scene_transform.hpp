@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bakers/parse/lights.hpp"
+#include "pbr/numerics/elementary.hpp"
 
 namespace pbrbake::parse {
 
@@ -28,6 +29,15 @@ inline glm::dmat4 matrix_of(const glm::dvec3& translation, const std::vector<dou
     for (int i = 0; i < 3; ++i) matrix[i] *= scale[i];
     matrix[3] = glm::dvec4(translation, 1);
     return matrix;
+}
+
+/// Turns by an angle, in half turns, about an axis of any length; one of length 0 turns nothing.
+inline glm::dmat4 turn_about(const glm::dvec3& axis, double half_turns) {
+    const double length = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
+    if (!(length > 0)) return glm::dmat4(1);
+    const pbr::SinCos half = pbr::sin_cos_pi(std::fmod(half_turns, 4.) / 2);
+    const glm::dvec3 v = axis / length * half.sin;
+    return matrix_of(glm::dvec3(0), {v.x, v.y, v.z, half.cos}, glm::dvec3(1));
 }
 
 /// Puts a light where a node is: at its origin, shining along its -Z.

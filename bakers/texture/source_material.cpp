@@ -126,7 +126,7 @@ class Filling {
         if (is_file)
             if (std::string path = files_.find(folder + name); !path.empty()) return path;
         throw parse::malformed(source_, map.line,
-                               "material \"" + material_ + "\": " + map.said + ": " +
+                               map.said + ": " +
                                    (refusal ? parse::quoted(map.path) + " " + *refusal
                                             : "there is no file \"" + folder + inner + "\"") +
                                    "; put the picture beside " + source_ + ", or state " + field +
@@ -304,9 +304,7 @@ void check_fields(const LegacyMaterial& material, const std::string& source) {
     const std::vector<std::string> allowed = field_names<TextureParams>();
     for (const auto& [field, value] : material.fields.items())
         if (std::ranges::find(allowed, field) == allowed.end() || field == "source" || field == "material")
-            throw parse::malformed(source, 0,
-                                   "material \"" + material.name + "\": found \"" + field +
-                                       "\", which is no field of a texture set");
+            throw parse::malformed(source, 0, "found \"" + field + "\", which is no field of a texture set");
 }
 
 /// Names as id Tech 4 and its kin have them: crate_d, crate_s, crate_n or crate_local. Their light is
@@ -365,11 +363,13 @@ Expansion expansion_of(const LegacyMaterial& material, const Json& bake, std::st
     Expansion expansion{bake, std::move(suffix), {}, {}};
     expansion.bake["material"] = material.name;
     try {
+        if (material.error) throw Error(*material.error);
         check_fields(material, source);
         Filling fill(expansion, files, source);
         fill_from_material(material, is_scene(bake), expansion, fill);
     } catch (const Error& error) {
-        expansion.error = error;
+        expansion.error =
+            Error(error.code(), error.where(), "material \"" + material.name + "\": " + error.message());
     }
     return expansion;
 }

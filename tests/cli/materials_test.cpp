@@ -129,6 +129,48 @@ TEST(Materials, SayTheirDielectricF0) {
     EXPECT_NEAR(coloured[2].get<double>(), 2, 1e-4);
 }
 
+/// One bad number, and what is known of the others is still baked; the exit code is that of unreadable input.
+TEST(Materials, ThatCannotBeReadFailAlone) {
+    struct Case {
+        const char *file, *text, *error;
+    };
+    const Case cases[] = {
+        {"m.mtl",
+         "newmtl good\nKd .5 .5 .5\nKs .1\nNs 10\nnewmtl bad\nKd .5 .5 .5\nNs x\nnewmtl other\nKd 0 .5 1\n",
+         "m.mtl:7: material \"bad\": found 'x' as 'ns'"},
+        {"m.gltf", R"({"asset": {"version": "2.0"}, "materials": [
+            {"name": "good", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.5, 0.5, 0.5, 1]}}},
+            {"name": "bad", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"glossinessFactor": 2}}},
+            {"name": "other", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0, 0.5, 1, 1]}}}]})",
+         "glossinessFactor: material \"bad\": found '2'; allowed: a number from 0 to 1"},
+        {"m.dae", R"(<COLLADA><library_effects>
+<effect id="e"><profile_COMMON><technique><lambert><diffuse><color>0 .5 1 1</color></diffuse></lambert></technique></profile_COMMON></effect>
+<effect id="f"><profile_COMMON><technique><constant/></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="good"><instance_effect url="#e"/></material><material id="bad"><instance_effect url="#f"/></material>
+<material id="other"><instance_effect url="#e"/></material></library_materials></COLLADA>)",
+         "m.dae:3: material \"bad\": the effect 'f' has no lambert, phong or blinn"}};
+    for (const Case& each : cases) {
+        const Scene scene(each.file, each.text);
+        const Outcome outcome = scene.bake("out.ktx2");
+        EXPECT_EQ(outcome.code, 4) << outcome.err;
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr(each.error), HasSubstr(each.file)));
+        EXPECT_TRUE(fs::exists(scene.path("out_good.ktx2")) && fs::exists(scene.path("out_other.ktx2")))
+            << each.file;
+        EXPECT_FALSE(fs::exists(scene.path("out_bad.ktx2")));
+        EXPECT_EQ(scene.bake("one.ktx2", {"--material", "other"}).code, 0);
+        const Outcome bad = scene.bake("two.ktx2", {"--material", "bad"});
+        EXPECT_EQ(bad.code, 4);
+        EXPECT_THAT(bad.err, HasSubstr(each.error));
+    }
+    // A file that is broken as a whole fails as a whole.
+    for (const auto& [file, text] :
+         {std::pair{"m.dae", "<COLLADA><library"}, {"m.gltf", "{\"asset\""}, {"m.mtl", "Kd 1\n"}}) {
+        const Scene scene(file, text);
+        EXPECT_EQ(scene.bake("out.ktx2").code, 4);
+        EXPECT_FALSE(fs::exists(scene.path("out.ktx2")));
+    }
+}
+
 TEST(Materials, OfAJobAreNamedAfterItsBakeAndOverriddenByIt) {
     const Scene scene("scene.mtl", kThree);
     scene.add("brick.tga", targa(180, 90, 60));
@@ -211,7 +253,8 @@ TEST(Materials, NameWhatIsWrong) {
         HasSubstr(
             "found no material 'glod'; allowed: \"brick wall\", \"gold\", \"veil\"; did you mean \"gold\"?"));
     EXPECT_THAT(refused("s.mtl", ""), HasSubstr("s.mtl"));
-    EXPECT_THAT(refused("s.mtl", "newmtl a\nKd 1 inf 1"), HasSubstr("s.mtl:2: found 'inf' as 'kd'"));
+    EXPECT_THAT(refused("s.mtl", "newmtl a\nKd 1 inf 1"),
+                HasSubstr("s.mtl:2: material \"a\": found 'inf' as 'kd'"));
     EXPECT_THAT(refused("s.mtl", "newmtl a\nmap_Kd ../../x.tga"), HasSubstr("leads out of the folder"));
     EXPECT_THAT(refused("s.json", R"({"materials": [{"name": "a", "diffues": "x"}]})"),
                 HasSubstr("material \"a\": found \"diffues\", which is no field of a texture set"));

@@ -43,7 +43,7 @@ constexpr std::array<Format, 10> kFormats{{
  {"type": "sphere", "radius": 0.1, "unit": "lm", "intensity": 800}, {"intensity": -1}, {"colour": [0, 0, 0]}, {"falloff": "constant"}]})"},
     {"d.csv",
      "name,type,intensity,x,y,z,falloff,range,outer_deg\n\"a, "
-     "b\",point,2,1,2,3,linear,10,\nc,spot,,,,,,,0.5\n"},
+     "b\",point,2,1,2,3,linear,10,\nc,spot,1,,,,,,0.5\n"},
     {"e.map",
      "{\n\"classname\" \"worldspawn\"\n\"_sunlight\" \"64\"\n\"light\" \"8\"\n}\n{\n\"classname\" "
      "\"light\"\n\"origin\" \"1 2 3\"\n}\n"

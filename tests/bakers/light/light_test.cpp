@@ -207,6 +207,32 @@ TEST(Light, AreaSourcesKeepTheirSizeAndLuminance) {
     EXPECT_NEAR(sphere.light()["luminance_cd_m2"].get<double>(), 50 / (kPi * .01), 1e-4);
 }
 
+/// Until r154 WebGLLights multiplies every light but the rectangle by pi, and the BRDF divides by it: a white
+/// wall under a directional light of 1, 965.1 lx at EV 8, has a radiance of 1, and so has a rectangle of
+/// intensity 1: 965.1 / pi = 307.2 nit, whatever its size and the files' length.
+TEST(Light, LegacyRectanglesOfThreeAreAsBrightAsAWhiteWall) {
+    LightParams params = defaults();
+    params.reference_illuminance_lx = 0;
+    const auto scene = [](const char* version) {
+        return std::string("{\"metadata\": {\"version\": ") + version +
+               R"(}, "lights": [{"type": "DirectionalLight"},
+            {"type": "RectAreaLight", "width": 2, "height": 0.5, "intensity": 1},
+            {"type": "RectAreaLight", "width": 4, "height": 3, "intensity": 2}]})";
+    };
+    for (const double unit_m : {0., .01}) {
+        params.unit_m = unit_m;
+        const double metres = unit_m > 0 ? unit_m : 1;
+        const Baked old = bake_text(scene("4.5"), params);
+        EXPECT_NEAR(old.light(0)["illuminance_lx"].get<double>(), 965.0973, 1e-3);
+        EXPECT_NEAR(old.light(1)["luminance_cd_m2"].get<double>(), 307.2, 1e-4);
+        EXPECT_NEAR(old.light(2)["luminance_cd_m2"].get<double>(), 614.4, 1e-4);
+        EXPECT_NEAR(old.light(2)["intensity_cd"].get<double>(), 614.4 * 12 * metres * metres, 1e-3);
+        const Baked now = bake_text(scene("4.6"), params);
+        EXPECT_NEAR(now.light(0)["illuminance_lx"].get<double>(), 1, 1e-9);
+        EXPECT_NEAR(now.light(2)["luminance_cd_m2"].get<double>(), 2, 1e-8);
+    }
+}
+
 TEST(Light, ColourIsTemperatureTintAndLuminance) {
     const Baked white = bake_one(R"("unit": "cd", "intensity": 10)");
     EXPECT_NEAR(white.light()["colour"]["temperature_k"].get<double>(), 6504, 1);
@@ -221,6 +247,57 @@ TEST(Light, ColourIsTemperatureTintAndLuminance) {
     // sRGB 188 is half of linear light.
     const Baked grey = bake_one(R"("unit": "cd", "intensity": 10, "colour": "#bcbcbc")");
     EXPECT_NEAR(grey.light()["intensity_cd"].get<double>(), 5.03, .01);
+}
+
+struct CorrelatedPair {
+    double kelvin, duv;
+};
+
+/// Isotemperature lines (Robertson 1968; Wyszecki & Stiles, table 1(3.11), 325 as corrected): reciprocal
+/// megakelvin, u, v and slope. The temperature is interpolated between the two lines on whose sides a colour
+/// lies.
+CorrelatedPair robertson(double u, double v) {
+    constexpr double kLines[][4] = {
+        {50, .18388, .27709, -.32675},  {60, .18494, .28021, -.35156},  {70, .18611, .28342, -.37915},
+        {80, .18740, .28668, -.40955},  {90, .18880, .28997, -.44278},  {100, .19032, .29326, -.47888},
+        {125, .19462, .30141, -.58204}, {150, .19962, .30921, -.70471}, {175, .20525, .31647, -.84901},
+        {200, .21142, .32312, -1.0182}, {225, .21807, .32909, -1.2168}, {250, .22511, .33439, -1.4512},
+        {275, .23247, .33904, -1.7298}, {300, .24010, .34308, -2.0637}, {325, .24792, .34655, -2.4681},
+        {350, .25591, .34951, -2.9641}, {375, .26400, .35200, -3.5814}, {400, .27218, .35407, -4.3633},
+        {425, .28039, .35577, -5.3762}, {450, .28863, .35714, -6.7262}};
+    const auto beside = [&](const double* line) {
+        return ((v - line[2]) - line[3] * (u - line[1])) / std::hypot(1, line[3]);
+    };
+    const double* last = kLines[0];
+    for (const auto& line : kLines) {
+        if (beside(line) <= 0) {
+            const double part = beside(last) / (beside(last) - beside(line));
+            const auto between = [&](int i) { return last[i] + (line[i] - last[i]) * part; };
+            const double above = v - between(2);
+            return {1e6 / between(0), std::copysign(std::hypot(u - between(1), above), above)};
+        }
+        last = line;
+    }
+    return {0, 0};
+}
+
+/// White, warm, cold, green and pink lights, by the chromaticities of Rec. 709's primaries and Robertson's
+/// lines: a tenth of a mired and 2e-4 are what a table of five digits tells.
+TEST(Light, TemperatureAndTintAreRobertsons) {
+    constexpr double kColours[][3] = {{1, 1, 1},   {1, .8, .5},  {1, .6, .3},   {.7, .8, 1}, {1, .9, 1},
+                                      {.9, 1, .9}, {1, .5, .15}, {1, .35, .08}, {.5, .7, 1}, {.6, 1, .4}};
+    for (const auto& [r, g, b] : kColours) {
+        const double x = .4123908 * r + .3575843 * g + .1804808 * b,
+                     y = .2126390 * r + .7151687 * g + .0721923 * b,
+                     z = .0193308 * r + .1191948 * g + .9505322 * b, n = x + 15 * y + 3 * z;
+        const CorrelatedPair expected = robertson(4 * x / n, 6 * y / n);
+        const Baked baked = bake_one("\"unit\": \"cd\", \"colour\": [" + parse::number_text(r) + ", " +
+                                     parse::number_text(g) + ", " + parse::number_text(b) + "]");
+        const Json& colour = baked.light()["colour"];
+        EXPECT_NEAR(1e6 / colour["temperature_k"].get<double>(), 1e6 / expected.kelvin, .1) << r << g << b;
+        EXPECT_NEAR(colour["tint_duv"].get<double>(), expected.duv, 2e-4) << r << g << b;
+        EXPECT_NEAR(baked.light()["intensity_cd"].get<double>() / y, 1, 1e-6) << r << g << b;
+    }
 }
 
 TEST(Light, GltfComesBackAsItWent) {

@@ -154,6 +154,43 @@ LightNode $node1 { Name {string {"Lamp"}} ObjectRef {ref {$light1}}
     EXPECT_EQ(pbr::falloff_at(file.lights[0].falloff, 10), 1);  // an inverse curve never rises above 1
 }
 
+/// By hand: a node's transformations multiply from left to right, angles are of the file's metric (here
+/// degrees), and one of the object alone isn't handed down. (5, 0, 0) turned by 90 degrees about z is (0, 5,
+/// 0).
+TEST(OpenGexLights, StandWhereAllTransformationsOfTheirNodesPutThem) {
+    const LightFile file = read(R"(Metric (key = "angle") {float {0.017453292519943295}}
+LightObject $l (type = "spot") { Atten (kind = "cos_angle") { Param (attrib = "begin") {float {1}}
+                                                              Param (attrib = "end") {float {0.5}} } }
+LightNode { Name {string {"a"}} ObjectRef {ref {$l}}
+  Translation {float[3] {{10, 20, 30}}} Rotation (kind = "z") {float {90}} Translation (kind = "x") {float {5}} }
+LightNode { Name {string {"b"}} ObjectRef {ref {$l}} Rotation (kind = "x") {float {90}}
+  Scale (kind = "y") {float {3}} Translation (kind = "y") {float {2}} }
+Node { Transform (object = true) {float[16] {{1,0,0,0, 0,1,0,0, 0,0,1,0, 100,0,0,1}}}
+  Rotation {float[4] {{-90, 0, 2, 0}}}
+  LightNode { ObjectRef {ref {$l}} Transform (object = true) {float[16] {{1,0,0,0, 0,1,0,0, 0,0,1,0, 1,2,3,1}}}
+    Rotation (kind = "quaternion") {float[4] {{0, 0, 2, 2}}} } })",
+                                "a.ogex");
+    ASSERT_EQ(file.lights.size(), 3u);
+    const auto expect = [&](std::size_t i, const char* name, glm::dvec3 position, glm::dvec3 direction) {
+        EXPECT_EQ(file.lights[i].name, name);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(file.lights[i].position[k], position[k], 1e-12) << name << k;
+            EXPECT_NEAR(file.lights[i].direction[k], direction[k], 1e-12) << name << k;
+        }
+    };
+    expect(0, "a", {10, 25, 30}, {0, 0, -1});
+    expect(1, "b", {0, 0, 6}, {0, 1, 0});
+    // (1, 2, 3) by a quarter about z is (-2, 1, 3), by minus a quarter about y (x, z) -> (-z, x) is (-3, 1,
+    // -2).
+    expect(2, "l", {-3, 1, -2}, {1, 0, 0});
+    for (const char* wrong : {"Translation (kind = \"w\") {float {1}}", "Rotation {float[3] {{1, 2, 3}}}",
+                              "Transform {float[16] {{1}}}", "Scale (kind = \"x\") {float[3] {{1, 2, 3}}}"})
+        EXPECT_THAT(refusal_of_lights(std::string("Node {\n") + wrong + "} LightObject (type = \"point\") {}",
+                                      "a.ogex"),
+                    HasSubstr("a.ogex:2: has a "))
+            << wrong;
+}
+
 LegacyLight opengex_light(const std::string& type, const std::string& curves) {
     return read("LightObject (type = \"" + type + "\") {" + curves + "}", "a.ogex").lights.at(0);
 }
@@ -247,9 +284,19 @@ TEST(Ac3dLights, StandInTheTreeOfObjects) {
                 HasSubstr("truncated"));
 }
 
+/// rot is a matrix by rows, for columns: (1, 2, 3) becomes (3, 2, -1), and stands at (10, 0, 0) from there.
+TEST(Ac3dLights, TurnWithTheirGroups) {
+    const LightFile file = read(
+        "AC3Db\nOBJECT world\nkids 1\nOBJECT group\nrot 0 0 1 0 1 0 -1 0 0\nloc 10 0 0\nkids 1\n"
+        "OBJECT light\nloc 1 2 3\nkids 0\n",
+        "a.ac");
+    ASSERT_EQ(file.lights.size(), 1u);
+    EXPECT_EQ(file.lights[0].position, glm::dvec3(13, 2, -1));
+}
+
 TEST(CsvLights, AreRowsOfNamedColumns) {
     const LightFile file = read(
-        "# lamps\nname,type,intensity,x,y,z,falloff,range\n\"a, b\",point,2,1,2,3,linear,10\nc,spot,,,,,,\n",
+        "# lamps\nname,type,intensity,x,y,z,falloff,range\n\"a, b\",point,2,1,2,3,linear,10\nc,spot,3,,,,,\n",
         "a.csv");
     ASSERT_EQ(file.lights.size(), 2u);
     EXPECT_EQ(file.lights[0].name, "a, b");
@@ -262,13 +309,27 @@ TEST(CsvLights, AreRowsOfNamedColumns) {
     EXPECT_THAT(refusal_of_lights("name,range\na,wide\n", "a.csv"), HasSubstr("found 'wide' as range"));
 }
 
+TEST(CsvLights, RefuseWhatIsEmptyOrOfNoUse) {
+    EXPECT_THAT(
+        refusal_of_lights("name,intensity\na,2\nb,\n", "a.csv"),
+        HasSubstr("a.csv:3: found '' as intensity; allowed: a finite number; without the column it is 1"));
+    EXPECT_EQ(read("name,x\na,\n", "a.csv").lights[0].intensity, 1);
+    EXPECT_THAT(
+        refusal_of_lights("falloff,linear\npolynomial,\n", "a.csv"),
+        HasSubstr("a.csv:2: found 'polynomial' as falloff; allowed: polynomial where its coefficients"));
+    // Cells of 0 and empty ones fill a table: they say nothing of a law that has no such number.
+    const LightFile filled = read("falloff,linear,exponent\ninverse,0,0\npolynomial,2,\n", "a.csv");
+    EXPECT_NEAR(pbr::falloff_at(filled.lights[0].falloff, 4), 1. / 4, 1e-15);
+    EXPECT_NEAR(pbr::falloff_at(filled.lights[1].falloff, 4), 1. / 8, 1e-15);
+}
+
 TEST(PlainLights, SayWhereTheyBreak) {
     EXPECT_THAT(refusal_of_lights("{\"lights\": [{\"intensity\": \"much\"}]}", "a.json"),
                 HasSubstr("a.json#/lights/0/intensity: found '\"much\"'; allowed: a finite number"));
     EXPECT_THAT(refusal_of_lights("{\"lights\": [{\"falloff\": \"cubic\"}]}", "a.json"),
                 HasSubstr("allowed: constant, linear"));
     EXPECT_THAT(refusal_of_lights("{\"lights\": [{\"falloff\": \"linear\"}]}", "a.json"),
-                HasSubstr("the ramp is dark"));
+                HasSubstr("a.json#/lights/0/range: found nothing; allowed: the distance at which"));
     EXPECT_THAT(refusal_of_lights("{\"lights\": 3}", "a.json"), HasSubstr("a.json#/lights: found '3'"));
     EXPECT_THAT(refusal_of_lights("{\"lights\": [,]}", "a.json"), HasSubstr("a.json:1:"));
     EXPECT_THAT(refusal_of_lights("{\"lamps\": []}", "a.json"), HasSubstr("without \"asset\""));
@@ -277,27 +338,59 @@ TEST(PlainLights, SayWhereTheyBreak) {
     EXPECT_THAT(refusal_of_lights("[1]", "a.json"), HasSubstr("no object"));
 }
 
-TEST(PlainLights, TellOfMembersThatNothingReads) {
-    const auto told = [](const char* members) {
-        const LightFile file = read(std::string(R"({"lights": [{)") + members + "}]}", "a.json");
-        std::string messages;
-        for (const Diagnostic& found : file.lights.front().diagnostics)
-            if (found.code == "unread") messages += found.message + "\n";
-        return messages;
-    };
-    EXPECT_EQ(told(R"("fallof": "linear", "range": 3)"), "has 'fallof', which isn't read\n");
-    EXPECT_EQ(told(R"("falloff": {"kind": "polynomial", "attenuation": [1, 0, 1]})"),
-              "has 'attenuation' in its falloff, which isn't read\n");
-    EXPECT_EQ(told(R"("type": "spot", "colour": [1, 1, 1], "attenuation": [1, 0, 1], "spot_law": "hard")"),
-              "");
-}
-
 TEST(ThreeLightsFile, TellsOfLightsThatAreNotRead) {
     const LightFile file = read(
         R"({"metadata": {"version": 4.5, "type": "Object"}, "object": {"type": "LightProbe", "name": "sky"}})",
         "a.json");
     EXPECT_TRUE(file.lights.empty());
     EXPECT_TRUE(has(file.diagnostics, "light_unread"));
+}
+
+/// The README: a polynomial's numbers are its three coefficients or `attenuation`, beside the name or in the
+/// object.
+TEST(PlainLights, PolynomialsAreTheSameInAllTheirForms) {
+    for (const char* fields :
+         {R"("falloff": {"kind": "polynomial", "attenuation": [1, 0.1, 0.5]})",
+          R"("falloff": {"attenuation": [1, 0.1, 0.5]})",
+          R"("falloff": {"kind": "polynomial", "constant": 1, "linear": 0.1, "quadratic": 0.5})",
+          R"("falloff": "polynomial", "attenuation": [1, 0.1, 0.5])", R"("attenuation": [1, 0.1, 0.5])",
+          R"("constant": 1, "linear": 0.1, "quadratic": 0.5)"}) {
+        const LightFile file = read(std::string("{\"lights\": [{") + fields + "}]}", "a.json");
+        for (const double d : {0., 1., 7.})
+            EXPECT_NEAR(pbr::falloff_at(file.lights[0].falloff, d) * (1 + .1 * d + .5 * d * d), 1, 1e-14)
+                << fields;
+    }
+    const LightFile power = read(R"({"lights": [{"falloff": "power", "exponent": 1.5}]})", "a.json");
+    EXPECT_NEAR(pbr::falloff_at(power.lights[0].falloff, 4), 1. / 8, 1e-14);
+}
+
+TEST(PlainLights, RefuseWhatHasNoMeaning) {
+    const auto of_light = [](const std::string& fields) {
+        return refusal_of_lights("{\"lights\": [{}, {" + fields + "}]}", "a.json");
+    };
+    EXPECT_THAT(refusal_of_lights(R"({"lights": [], "length": 1})", "a.json"),
+                HasSubstr("a.json#/length: unknown key; allowed: unit, length_m, up"));
+    EXPECT_THAT(of_light(R"("bogus": 3)"),
+                HasSubstr("a.json#/lights/1/bogus: unknown key; allowed: name, type, unit"));
+    EXPECT_THAT(of_light(R"("outer_degrees": 3)"), HasSubstr("did you mean \"outer_deg\"?"));
+    EXPECT_THAT(of_light(R"("falloff": {"kind": "inverse", "radius": 3})"),
+                HasSubstr("a.json#/lights/1/falloff/radius: unknown key; allowed: kind, constant"));
+    EXPECT_THAT(of_light(R"("falloff": {"kind": "inverse"}, "range": 3)"),
+                HasSubstr("a.json#/lights/1/range: found '3'; allowed: nothing here"));
+    EXPECT_THAT(
+        of_light(R"("falloff": {"kind": "polynomial"})"),
+        HasSubstr("/falloff/kind: found '\"polynomial\"'; allowed: polynomial where its coefficients"));
+    EXPECT_THAT(of_light(R"("falloff": "inverse", "quadratic": 2)"),
+                HasSubstr("/falloff: found '\"inverse\"'"));
+    EXPECT_THAT(of_light(R"("attenuation": [1, 0, 0], "linear": 2)"), HasSubstr("/linear: found '2'"));
+    EXPECT_THAT(of_light(R"("falloff": {"kind": "linear", "range": 3, "exponent": -1})"),
+                HasSubstr("/falloff/exponent: found '-1'; allowed: a number above 0"));
+    EXPECT_THAT(of_light(R"("falloff": "inverse", "exponent": 3)"), HasSubstr("/exponent: found '3'"));
+    EXPECT_THAT(of_light(R"("falloff": "smoothstep")"), HasSubstr("/range: found nothing"));
+    EXPECT_THAT(of_light(R"("falloff": "inverse", "window": "soft", "range": 2)"),
+                HasSubstr("/window: found '\"soft\"'; allowed: none, cut"));
+    EXPECT_THAT(of_light(R"("falloff": "cubic")"),
+                HasSubstr("/falloff: found '\"cubic\"'; allowed: constant"));
 }
 
 TEST(GltfLights, SayWhereTheyBreak) {

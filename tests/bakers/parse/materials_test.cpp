@@ -17,10 +17,11 @@ MaterialFile read(const std::string& text, const std::string& file) {
 
 LegacyMaterial mtl(const std::string& lines) { return read("newmtl m\n" + lines, "m.mtl").materials.at(0); }
 
-/// The error that a text gives.
+/// The error that a text gives, the whole or its first material that has one.
 std::string refusal(const std::string& text, const std::string& file) {
     try {
-        read(text, file);
+        for (const LegacyMaterial& material : read(text, file).materials)
+            if (material.error) throw Error(*material.error);
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::unreadable_input);
         return error.what();
@@ -264,6 +265,49 @@ TEST(PlainMaterials, HoldFieldsOfASet) {
                 HasSubstr("m.json#/materials/0/name"));
     EXPECT_THAT(refusal(R"({"materials": [3]})", "m.json"), HasSubstr("m.json#/materials/0"));
     EXPECT_THAT(refusal(R"({"materials": []})", "m.json"), HasSubstr("holds no materials"));
+}
+
+/// Three of each format, the second with a mistake: the others are as they would be without it.
+TEST(Materials, FailAlone) {
+    struct Case {
+        const char *file, *text, *wrong, *right, *error;
+    };
+    const Case cases[] = {
+        {"m.mtl", "newmtl a\nKd .25 .5 1\nnewmtl b\nNs @\nKd x\nNs 3\nnewmtl c\nKd .25 .5 1\n", "many", "3",
+         "m.mtl:4: found 'many' as 'ns'"},
+        {"m.gltf", R"({"asset": {}, "materials": [
+            {"name": "a", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.25, 0.5, 1, 1]}}},
+            {"name": "b", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"glossinessFactor": @}}},
+            {"name": "c", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.25, 0.5, 1, 1]}}}]})",
+         "2", "1",
+         "m.gltf#/materials/1/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor: found '2'"},
+        {"m.dae", R"(<COLLADA><library_effects>
+<effect id="e"><profile_COMMON><technique><lambert><diffuse><color>.25 .5 1 1</color></diffuse></lambert></technique></profile_COMMON></effect>
+<effect id="f"><profile_COMMON><technique><@/></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="a"><instance_effect url="#e"/></material><material id="b"><instance_effect url="#f"/></material>
+<material id="c"><instance_effect url="#e"/></material></library_materials></COLLADA>)",
+         "constant", "lambert", "m.dae:3: the effect 'f' has no lambert, phong or blinn"},
+        {"m.json",
+         R"({"materials": [{"name": "a", "diffuse_factor": 1}, {"name": "b", "diffuse": @}, {"name": "c"}]})",
+         "5", "\"d.png\"", "m.json#/materials/1/diffuse: found '5'; allowed: a text"}};
+    for (const Case& each : cases) {
+        const MaterialFile broken = read(replaced(each.text, "@", each.wrong), each.file);
+        ASSERT_EQ(broken.materials.size(), 3u) << each.file;
+        EXPECT_EQ(broken.materials[1].name, "b");
+        ASSERT_TRUE(broken.materials[1].error) << each.file;
+        EXPECT_THAT(broken.materials[1].error->what(), HasSubstr(each.error));
+        const MaterialFile whole = read(replaced(each.text, "@", each.right), each.file);
+        for (const std::size_t i : {0u, 2u}) {
+            const LegacyMaterial &a = broken.materials[i], &b = whole.materials[i];
+            EXPECT_FALSE(a.error) << each.file;
+            EXPECT_EQ(a.name, i == 0 ? "a" : "c");
+            EXPECT_EQ(a.diffuse_factor, b.diffuse_factor);
+            EXPECT_EQ(a.fields, b.fields);
+        }
+        if (each.file != std::string("m.json")) {
+            EXPECT_EQ(broken.materials[2].diffuse_factor, glm::dvec3(.25, .5, 1)) << each.file;
+        }
+    }
 }
 
 TEST(Materials, AreFoundByNameOrIdOrListed) {

@@ -176,6 +176,34 @@ TEST(LightFit, DistancesThatMatterKnowNoConstantAndNoDarkLight) {
     EXPECT_NEAR(distances_that_matter(Falloff{0, 0, 1}, 1e6, .01).far, 9e3, 1e-6);
 }
 
+/// Differences whose largest is known: at the near end, at the far end, at a kink and at a smooth peak
+/// between grid points, whatever the count.
+TEST(LightFit, LargestErrorIsOfTheWholeSpan) {
+    const PhysicalLight point{EmitterShape::point, LightWindow::quartic_squared, 1, 0, kInfinity};
+    for (const int count : {16, 256, 4096}) {
+        // 1 / d^2 against 1 / d, log2(d) apart.
+        const StopsError near = stops_between(point, Falloff{0, 1, 0}, 1, {.05, 2}, count);
+        EXPECT_NEAR(near.max, std::log2(20), 1e-12) << count;
+        EXPECT_EQ(near.max_at, .05);
+        const StopsError far = stops_between(point, Falloff{0, 1, 0}, 1, {.7, 13}, count);
+        EXPECT_NEAR(far.max, std::log2(13), 1e-12) << count;
+        EXPECT_EQ(far.max_at, 13);
+        Falloff floored;
+        floored.power = 2, floored.floor = 9;
+        PhysicalLight disk = point;
+        disk.shape = EmitterShape::disk, disk.radius = 3;
+        // max(d^2, 9) / (d^2 + 9) is lowest at the kink, d = 3: one half.
+        const StopsError kink = stops_between(disk, floored, 1, {1, 10}, count);
+        EXPECT_NEAR(kink.max, 1, 1e-6) << count;
+        EXPECT_NEAR(kink.max_at, 3, 1e-5) << count;
+        // 2 d / (1 + d^2) is 1 at d = 1: of twice that light, the difference peaks there at 1 and is smooth.
+        disk.radius = 1, disk.intensity = 4;
+        const StopsError smooth = stops_between(disk, Falloff{0, 1, 0}, 1, {.3, 3}, count);
+        EXPECT_NEAR(smooth.max, 1, 1e-12) << count;
+        EXPECT_NEAR(smooth.max_at, 1, 1e-5) << count;
+    }
+}
+
 TEST(LightFit, DarknessCountsAsManyStops) {
     PhysicalLight light{EmitterShape::point, LightWindow::quartic, 1, 0, 5};
     const StopsError error = stops_between(light, Falloff{0, 0, 1}, 1, {1, 9}, 64);

@@ -126,6 +126,32 @@ TEST(CorrelatedTemperature, OfStandardIlluminantsIsAsPublished) {
     EXPECT_LT(correlated_temperature({1.0 / 3, 1.0 / 3}).duv, 0);
 }
 
+/// Ohno 2014, "Practical use and calculation of CCT and Duv": its example, as the Python package Colour works
+/// it out.
+TEST(CorrelatedTemperature, IsOhnos) {
+    constexpr double u = .1978, v = .3122, n = 2 * u - 8 * v + 4;
+    const CorrelatedTemperature t = correlated_temperature({3 * u / n, 2 * v / n});
+    EXPECT_NEAR(t.temperature_k, 6507.474, .2);  // of which c2 = 1.4388e-2 makes .1
+    EXPECT_NEAR(t.duv, .00322335, 1e-6);
+}
+
+/// The same package's locus, whose sums end at 780 nm and have c2 = 1.4388e-2: all its eight digits by our
+/// observer.
+TEST(PlanckianLocus, IsThatOfAnotherPrograms) {
+    const struct {
+        double kelvin, u, v;
+    } known[] = {{1000, .44796288, .35462962}, {1010, .44563516, .35483063}};
+    for (const auto& [kelvin, u, v] : known) {
+        glm::dvec3 sum(0);
+        for (int nm = 360; nm <= 780; ++nm)
+            sum += cie_1931_observer()[static_cast<std::size_t>(nm - 360)] /
+                   (std::pow(nm, 5) * std::expm1(1.4388e-2 / (nm * 1e-9 * kelvin)));
+        const double n = sum.x + 15 * sum.y + 3 * sum.z;
+        EXPECT_NEAR(4 * sum.x / n, u, 6e-9);
+        EXPECT_NEAR(6 * sum.y / n, v, 6e-9);
+    }
+}
+
 TEST(CorrelatedTemperature, IsThatOfTheNearestBlackBody) {
     // Every black body of a fine grid is farther.
     for (const Chromaticity c : {Chromaticity{.40, .45}, {.33, .30}, {.25, .26}, {.55, .38}}) {

@@ -48,12 +48,14 @@ struct DistanceSpan {
 /// Difference of two lights over distances, in stops: log2 of their ratio.
 struct StopsError {
     double rms;
-    double max;     ///< largest magnitude
+    double max;     ///< largest magnitude anywhere in the span
     double max_at;  ///< the distance of that
 };
 
-/// How far `light` is from `intensity` times the law, over `count` distances at the middles of equal parts of
-/// the span. Where one of them is dark and the other not, the difference counts as kDarkStops.
+/// How far `light` is from `intensity` times the law. rms: over `count` distances at the middles of equal
+/// parts of the span. max: over all of the span, its ends included; peaks are found on a grid of `count`
+/// equal ratios of distance and climbed to 1e-6 of its step. Where one is dark and the other not, the
+/// difference counts as kDarkStops.
 StopsError stops_between(const PhysicalLight& light, const Falloff& law, double intensity,
                          const DistanceSpan& span, int count);
 
