@@ -49,9 +49,8 @@ struct Worst {
     pbr::PhysicalLight told;
     std::size_t lights = 0;
 
-    void take(const ConvertedLight& other, const pbr::PhysicalLight& other_told, int count) {
-        const pbr::StopsError error =
-            pbr::stops_between(other_told, other.law, other.law_lx, other.span_m, count);
+    void take(const ConvertedLight& other, const pbr::PhysicalLight& other_told,
+              const pbr::StopsError& error) {
         ++lights;
         max = std::max(max, error.max);
         if (light && error.rms < rms) return;
@@ -122,12 +121,17 @@ class Survey {
         return nullptr;
     }
 
+    pbr::StopsError difference(const ConvertedLight& light, const pbr::PhysicalLight& written) {
+        distances_ += static_cast<std::size_t>(count_);
+        return pbr::stops_between(written, light.law, light.law_lx, light.span_m, count_);
+    }
+
     void take_json(const ConvertedLight& light, const Json& told) {
         if (!light.fades()) return;
         const pbr::PhysicalLight written = told_by_json(told);
-        all_.take(light, written, count_);
-        kinds_[law_kind(light.law)].take(light, written, count_);
-        distances_ += static_cast<std::size_t>(2 * count_);
+        const pbr::StopsError error = difference(light, written);
+        all_.take(light, written, error);
+        kinds_[law_kind(light.law)].take(light, written, error);
         constexpr double kDegree = std::numbers::pi / 180;
         if (light.spot_law)
             take_cone(*light.spot_law, told["spot"]["inner_half_angle_deg"].get<double>() * kDegree,
@@ -136,8 +140,8 @@ class Survey {
 
     void take_gltf(const ConvertedLight& light, const Json& told, bool is_alone) {
         if (!light.fades()) return;
-        gltf_.take(light, told_by_gltf(told, light.rgb), count_);
-        distances_ += static_cast<std::size_t>(count_);
+        const pbr::PhysicalLight written = told_by_gltf(told, light.rgb);
+        gltf_.take(light, written, difference(light, written));
         if (light.spot_law && is_alone)
             take_cone(*light.spot_law, told["spot"]["innerConeAngle"], told["spot"]["outerConeAngle"]);
     }

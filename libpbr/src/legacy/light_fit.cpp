@@ -141,22 +141,22 @@ double stops_at_distance(const PhysicalLight& light, const Falloff& law, double 
 /// Raises `error` to the largest of all peaks: those of a grid that is as fine near the light as far from it,
 /// each climbed by thirds, which kinks don't disturb. A light's largest error is often at an end of the span.
 template <class Stops>
-void take_peaks(const Stops& stops_at, const DistanceSpan& span, int count, StopsError& error) {
+void take_peaks(const Stops& stops_at, const DistanceSpan& span, StopsError& error) {
     constexpr double kNothing = 1e-9;  // what arithmetic leaves has many peaks
-    constexpr int kThirds = 40;
+    constexpr int kParts = 256, kThirds = 40;
     const auto take = [&](double distance) {
         const double stops = stops_at(distance);
         if (stops > error.max) error.max = stops, error.max_at = distance;
         return stops;
     };
-    const double step = exp_exact(log_exact(span.far / span.near) / count);
+    const double step = exp_exact(log_exact(span.far / span.near) / kParts);
     std::array<double, 3> at{span.near, span.near, span.near};
     std::array<double, 3> stops{};
     stops.fill(take(span.near));
-    for (int i = 1; i <= count + 1; ++i) {
-        const bool is_last = i >= count;
+    for (int i = 1; i <= kParts + 1; ++i) {
+        const bool is_last = i >= kParts;
         at = {at[1], at[2], is_last ? span.far : at[2] * step};
-        stops = {stops[1], stops[2], i > count ? stops[2] : take(at[2])};
+        stops = {stops[1], stops[2], i > kParts ? stops[2] : take(at[2])};
         const bool is_peak = stops[1] >= stops[2] && (i == 1 || stops[1] > stops[0]);
         if (!is_peak || stops[1] < kNothing) continue;
         double low = at[0], high = at[2];
@@ -183,7 +183,7 @@ StopsError stops_between(const PhysicalLight& light, const Falloff& law, double 
         if (stops > error.max) error.max = stops, error.max_at = distance;
     }
     error.rms = std::sqrt(squares / count);
-    take_peaks(stops_at, span, count, error);
+    take_peaks(stops_at, span, error);
     return error;
 }
 

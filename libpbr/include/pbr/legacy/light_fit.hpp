@@ -53,7 +53,7 @@ struct StopsError {
 };
 
 /// How far `light` is from `intensity` times the law. rms: over `count` distances at the middles of equal
-/// parts of the span. max: over all of the span, its ends included; peaks are found on a grid of `count`
+/// parts of the span. max: over all of the span, its ends included; peaks are found on a grid of 256
 /// equal ratios of distance and climbed to 1e-6 of its step. Where one is dark and the other not, the
 /// difference counts as kDarkStops.
 StopsError stops_between(const PhysicalLight& light, const Falloff& law, double intensity,
