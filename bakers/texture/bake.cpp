@@ -276,7 +276,7 @@ class SetBake {
     Context& context_;
     Layout layout_;
     Survey survey_;
-    std::vector<Findings> findings_;  ///< sums of each row
+    std::vector<Findings> findings_;   ///< sums of each row
     std::vector<float> largest_f0_;    ///< of each row's dielectrics, over their specular_factor
     std::vector<float> least_factor_;  ///< of each row
     bool is_coded_;                    ///< factors alone may end up in a document, as they are

@@ -89,10 +89,9 @@ class Comparer {
     Comparison operator()(std::uint64_t texel) const {
         const auto width = static_cast<std::uint64_t>(sources_.width());
         const auto x = static_cast<int>(texel % width), y = static_cast<int>(texel / width);
-        const Unpacked stored =
-            product_.images.empty()
-                ? factors_from(product_.properties["set"]["factors"], layout_)
-                : unpack(layout_, product_.images, x, y, unit_, product_.scale);
+        const Unpacked stored = product_.images.empty()
+                                    ? factors_from(product_.properties["set"]["factors"], layout_)
+                                    : unpack(layout_, product_.images, x, y, unit_, product_.scale);
         const pbr::Reflected<float>& after = stored.reflected;
         LegacyTexel legacy = sources_.texel(x, y);
         const pbr::Reflected<float> before = legacy.reflected = calibration_(legacy.reflected);

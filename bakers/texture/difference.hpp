@@ -16,8 +16,8 @@ struct Albedo {
 Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float f90, float perceptual_roughness,
                   pbr::Scattering scattering);
 
-/// Grazing reflectance of a set's texel of that f0. The lobe that stands for Phong's has Frostbite's f90, which
-/// lets it be dim; the other models are glTF's, and have 1.
+/// Grazing reflectance of a set's texel of that f0. The lobe that stands for Phong's has Frostbite's f90,
+/// which lets it be dim; the other models are glTF's, and have 1.
 float source_f90(const Sources& sources, const Colour& f0);
 
 /// Of a texel of the set whose reflected light is as calibrated. A Phong lobe's specular albedo comes from

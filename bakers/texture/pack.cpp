@@ -167,8 +167,9 @@ void make_specular_gloss(Texels& texels) {
         if (texels.is_coded) round_to_codes(f0, Transfer::srgb);
     }
     for (std::size_t i = 0; i < texels.count; ++i)
-        texels.base_color.set(i, pbr::diffuse_colour<float>(
-                                     {level.diffuse[texels.begin + i], texels.dielectric_f0[i]}, kSpecularGloss));
+        texels.base_color.set(
+            i, pbr::diffuse_colour<float>({level.diffuse[texels.begin + i], texels.dielectric_f0[i]},
+                                          kSpecularGloss));
 }
 
 }  // namespace
@@ -213,9 +214,9 @@ void make_materials(const Layout& layout, Texels& texels) {
     }
     for (std::size_t i = 0; !layout.has_residual && i < texels.count; ++i) {
         const std::size_t at = texels.begin + i;
-        const auto material = pbr::material_without_residual<float>({level.diffuse[at], level.f0[at]},
-                                                                    texels.metallic[i], layout.dielectric_f0,
-                                                                    layout.largest_f0, layout.coupling);
+        const auto material =
+            pbr::material_without_residual<float>({level.diffuse[at], level.f0[at]}, texels.metallic[i],
+                                                  layout.dielectric_f0, layout.largest_f0, layout.coupling);
         texels.base_color.set(i, material.base_color);
         texels.dielectric_f0.set(i, material.dielectric_f0);
     }
@@ -313,11 +314,11 @@ Unpacked shaded(const Layout& layout, const pbr::MetallicMaterial<float>& materi
 }
 
 Unpacked packed(const Layout& layout, const Texels& texels, std::size_t i) {
-    return shaded(layout,
-                  {texels.base_color[i], texels.metallic.empty() ? 0 : texels.metallic[i],
-                   texels.dielectric_f0[i]},
-                  texels.specular_factor.empty() ? 1 : texels.specular_factor[i],
-                  texels.level.perceptual_roughness[texels.begin + i]);
+    return shaded(
+        layout,
+        {texels.base_color[i], texels.metallic.empty() ? 0 : texels.metallic[i], texels.dielectric_f0[i]},
+        texels.specular_factor.empty() ? 1 : texels.specular_factor[i],
+        texels.level.perceptual_roughness[texels.begin + i]);
 }
 
 Unpacked unpack(const Layout& layout, const std::vector<Image>& images, int x, int y, float specular_unit,

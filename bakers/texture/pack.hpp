@@ -76,8 +76,8 @@ std::vector<std::string> image_names(const TextureParams& params);
 struct Texels {
     const MapLevel& level;
     std::size_t begin, count;
-    /// Whether 8-bit codes are what is stored: then metallic, specular_factor and the f0 of specular-gloss are
-    /// numbers that codes stand for, and what else there is makes up for their rounding.
+    /// Whether 8-bit codes are what is stored: then metallic, specular_factor and the f0 of specular-gloss
+    /// are numbers that codes stand for, and what else there is makes up for their rounding.
     bool is_coded;
     Planes base_color, dielectric_f0{};  ///< of `begin` first; of specular-gloss, the diffuse colour and f0
     std::vector<float> metallic{}, specular_factor{};  ///< the latter empty where it is 1

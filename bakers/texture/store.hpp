@@ -22,8 +22,8 @@ class Store {
     /// that most texels have is an 8-bit code exactly then. What many texels share would else be off by the
     /// same part of a code in all of them.
     float residual_unit(float largest) const;
-    /// Divides the residual by the set's unit, which is known last; ends at 1. Its fourth channel, if there is
-    /// one, is kept or dropped, and grows where colours would end otherwise: what they multiply to stays.
+    /// Divides the residual by the set's unit, which is known last; ends at 1. Its fourth channel, if there
+    /// is one, is kept or dropped, and grows where colours would end otherwise: what they multiply to stays.
     void divide_residual(float unit, bool keeps_factor);
     std::vector<Image> take() { return std::move(images_); }
 
