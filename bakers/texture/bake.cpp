@@ -204,7 +204,7 @@ class SetBake {
         MapLevel maps;
         maps.width = sources_.width();
         maps.height = sources_.height();
-        if (sources_.has_legacy_lobe()) maps.f90.resize(1);
+        if (sources_.may_be_dim()) maps.f90.resize(1);
         if (sources_.has_normal()) maps.normal.resize(1);
         if (sources_.has_occlusion()) maps.occlusion.resize(1);
         if (sources_.has_opacity()) maps.opacity.resize(1);

@@ -40,7 +40,7 @@ Converter::Converter(const Sources& sources, const Survey& survey, int most_rows
     level.f0.resize(texels);
     level.metallic.resize(texels);
     level.perceptual_roughness.resize(texels);
-    if (sources.has_legacy_lobe()) level.f90.resize(texels);
+    if (sources.may_be_dim()) level.f90.resize(texels);
     if (sources.has_normal()) level.normal.resize(texels);
     if (sources.has_occlusion()) level.occlusion.resize(texels);
     if (sources.has_opacity()) level.opacity.resize(texels);

@@ -39,7 +39,7 @@ Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float f90, float perce
 }
 
 float source_f90(const Sources& sources, const Colour& f0) {
-    return sources.has_legacy_lobe() ? pbr::f90_from_f0(f0) : 1;
+    return sources.may_be_dim() ? pbr::f90_from_f0(f0) : 1;
 }
 
 Albedo source_albedo(const Sources& sources, const Calibration& calibration, const LegacyTexel& calibrated) {

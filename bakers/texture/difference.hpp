@@ -17,7 +17,7 @@ Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float f90, float perce
                   pbr::Scattering scattering);
 
 /// Grazing reflectance of a set's texel of that f0. The lobe that stands for Phong's has Frostbite's f90,
-/// which lets it be dim; the other models are glTF's, and have 1.
+/// which lets it be dim; the other models are glTF's, and have 1, or no lobe at all.
 float source_f90(const Sources& sources, const Colour& f0);
 
 /// Of a texel of the set whose reflected light is as calibrated. A Phong lobe's specular albedo comes from

@@ -125,6 +125,9 @@ class Sources {
     bool has_specular() const { return specular_.map.picture || specular_.factor != Colour(1); }
     /// Whether the set has a Phong lobe, whose albedo is known without an f0.
     bool has_legacy_lobe() const;
+    /// Whether texels may reflect less than all light at grazing incidence: Phong's lobes, and a specular
+    /// factor of 0.
+    bool may_be_dim() const { return has_legacy_lobe() || specular_.factor == Colour(0); }
     pbr::DiffuseCoupling coupling() const { return coupling_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
 

@@ -187,7 +187,7 @@ void Layout::drop_specular_factor() {
 
 Layout layout_of(const Sources& sources) {
     return make_layout(sources.params(), sources.has_normal(), sources.has_opacity(),
-                       sources.has_legacy_lobe());
+                       sources.may_be_dim());
 }
 
 std::vector<std::string> image_names(const TextureParams& params) {

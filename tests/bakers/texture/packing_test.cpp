@@ -133,6 +133,21 @@ TEST(GltfLobes, OfSetsThatAreNotDimStayRgb) {
     }
 }
 
+TEST(GltfLobes, AreNoneWhereTheSpecularFactorIsNone) {
+    TextureParams params = defaults();
+    params.specular = "";
+    params.specular_factor = {0, 0, 0};
+    Inputs inputs;
+    inputs["diffuse"] = source(4, 4, 3, 8, [](int, int) { return Rgba{.3f, .3f, .3f, 1}; });
+    const Baked baked = bake_set(params, inputs, PixelType::unorm8);
+    for (int channel = 0; channel < 4; ++channel)
+        EXPECT_EQ(baked.image("specular").texel(0, 0, 0, 0)[channel], 0);
+    EXPECT_LT(baked.figure("energy_error"), 4e-3);
+    // KHR_materials_pbrSpecularGlossiness has a rim then.
+    params.packing = Packing::specular_gloss;
+    EXPECT_GT(bake_set(params, inputs, PixelType::unorm8).figure("energy_error"), .02);
+}
+
 /// Levels below average what is reflected at grazing incidence too: half a dim lobe and half a bright one.
 TEST(GltfLobes, OfLevelsAreMeans) {
     TextureParams params = blinn_phong();
