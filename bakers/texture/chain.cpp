@@ -38,7 +38,7 @@ float visibility(const MapLevel& level, std::size_t i) {
 
 struct Sums {
     Colour diffuse{0}, f0{0}, emissive{0};
-    float metallic = 0, occlusion = 0, opacity = 0;
+    float f90 = 0, metallic = 0, occlusion = 0, opacity = 0;
     pbr::SlopeMoments<float> slopes;
 
     /// A texel covers `share` of the new one, and has a part of `weight` in what is seen of that.
@@ -47,6 +47,7 @@ struct Sums {
         diffuse += weight * level.diffuse[i];
         f0 += weight * level.f0[i];
         metallic += weight * level.metallic[i];
+        if (!level.f90.empty()) f90 += weight * level.f90[i];
         if (!level.occlusion.empty()) occlusion += weight * level.occlusion[i];
         if (!level.emissive.empty()) emissive += weight * level.emissive[i];
         slopes.add(level.normal.empty() ? Colour(0, 0, 1) : level.normal[i],
@@ -57,6 +58,7 @@ struct Sums {
         level.diffuse.set(i, diffuse);
         level.f0.set(i, f0);
         level.metallic[i] = metallic;
+        if (!level.f90.empty()) level.f90[i] = f90;
         level.perceptual_roughness[i] = pbr::perceptual_roughness_from_alpha(slopes.alpha());
         if (!level.normal.empty()) level.normal.set(i, slopes.normal());
         if (!level.occlusion.empty()) level.occlusion[i] = occlusion;
@@ -76,6 +78,7 @@ MapLevel level_below(const MapLevel& level, int levels, int rows) {
     next.f0.resize(next.texels());
     next.metallic.resize(next.texels());
     next.perceptual_roughness.resize(next.texels());
+    if (!level.f90.empty()) next.f90.resize(next.texels());
     if (!level.normal.empty()) next.normal.resize(next.texels());
     if (!level.occlusion.empty()) next.occlusion.resize(next.texels());
     if (!level.opacity.empty()) next.opacity.resize(next.texels());

@@ -71,6 +71,7 @@ struct MapLevel {
     int width = 0, height = 0;  ///< of the level
     int first = 0, rows = 0;
     Planes diffuse, f0;
+    std::vector<float> f90;  ///< grazing reflectance; empty where it is 1
     std::vector<float> metallic, perceptual_roughness;
     Planes normal;                          ///< y up; empty without a normal map
     Planes emissive;                        ///< empty without a map
@@ -130,6 +131,9 @@ class Sources {
     bool has_specular() const { return bool(specular_.map) || specular_.factor != Colour(1); }
     /// Whether the set has a Phong lobe, whose albedo is known without an f0.
     bool has_legacy_lobe() const;
+    /// Whether texels may reflect less than all light at grazing incidence: Phong's lobes, and a specular
+    /// factor of 0.
+    bool may_be_dim() const { return has_legacy_lobe() || specular_.factor == Colour(0); }
     pbr::DiffuseCoupling coupling() const { return coupling_; }
     /// How far a material's diffuse albedo may be from its texel's: nearly a code of 8-bit colours, else
     /// 1e-4.

@@ -56,6 +56,10 @@ TEST(LegacyEnergy, MeanAlbedoIsThatOfItsParts) {
     EXPECT_NEAR(mean_specular_albedo(1, lobe, Scattering::multiple), 1, 1e-14);
     EXPECT_NEAR(mean_specular_albedo(1, lobe, Scattering::single), lobe.E, 1e-14);
     EXPECT_EQ(mean_specular_albedo(0, lobe, Scattering::multiple), 0);
+    EXPECT_EQ(mean_specular_albedo(0, 1, lobe, Scattering::single), lobe.Fc);
+    const double f90 = f90_from_f0(Vec3<double>(.01));
+    EXPECT_NEAR(mean_specular_albedo(.01, f90, lobe, Scattering::multiple),
+                mean_specular_albedo(.01, lobe, Scattering::multiple), 1e-15);
 }
 
 TEST(LegacyEnergy, SolvedF0ReflectsWhatWasAskedFor) {
