@@ -53,7 +53,7 @@ const Baker& scene_baker() {
         };
         scene.certify = [](const Json&, const Inputs&, const Product&, Context&) { return Certificate(); };
         scene.follow = texture::scene_files;
-        scene.documents = [](const Json&) { return std::vector<std::string>{"gltf"}; };
+        scene.documents = [](const Json&, const Inputs& known) { return texture::scene_documents(known); };
         return scene;
     }();
     return baker;
@@ -71,7 +71,9 @@ std::span<const Baker> bakers() {
         Baker ies =
             make_baker("ies", ies::kAlgorithmVersion, ies::check, ies::reads, ies::bake, ies::certify);
         ies.follow = ies::follow;
-        ies.documents = [](const Json& json) { return ies::documents(read_params<ies::IesParams>(json)); };
+        ies.documents = [](const Json& json, const Inputs&) {
+            return ies::documents(read_params<ies::IesParams>(json));
+        };
         Baker texture = make_baker("texture", texture::kAlgorithmVersion, texture::check, texture::reads,
                                    texture::bake, texture::certify);
         texture.expand = texture::expand;
@@ -79,7 +81,7 @@ std::span<const Baker> bakers() {
             return texture::images(read_params<texture::TextureParams>(json),
                                    json.at("format").get<std::string>());
         };
-        texture.documents = [](const Json& json) {
+        texture.documents = [](const Json& json, const Inputs&) {
             return texture::documents(json.at("format").get<std::string>());
         };
         texture.joiner = &scene_baker();
@@ -87,7 +89,7 @@ std::span<const Baker> bakers() {
         texture.part_document = texture::kPartDocument;
         Baker light = make_baker("light", light::kAlgorithmVersion, light::check, light::reads, light::bake,
                                  light::certify);
-        light.documents = [](const Json& json) {
+        light.documents = [](const Json& json, const Inputs&) {
             return light::documents(read_params<light::LightParams>(json));
         };
         return std::array{std::move(dfg), std::move(probe), std::move(ies), std::move(texture),

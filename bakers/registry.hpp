@@ -32,8 +32,9 @@ struct Baker {
     std::function<std::vector<Expansion>(const Json& bake, const FileQueries&)> expand = {};
     /// Names of the images that a bake will write besides its first.
     std::function<std::vector<std::string>(const Json& bake)> images = {};
-    /// Suffixes of the documents that a bake will write.
-    std::function<std::vector<std::string>(const Json& bake)> documents = {};
+    /// Suffixes of the documents that a bake will write, as far as they are known of it and of those of its
+    /// sources that are given.
+    std::function<std::vector<std::string>(const Json& bake, const Inputs&)> documents = {};
     /// What makes one product of a source as a whole, once its expansions are baked. Its inputs are "source"
     /// and, of the i-th expansion, the document "part.i".
     const Baker* joiner = nullptr;

@@ -7,6 +7,7 @@
 #include "bakers/job/json_text.hpp"
 #include "bakers/run/atomic_file.hpp"
 #include "bakers/run/run.hpp"
+#include "bakers/verify/run_page.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 
@@ -20,6 +21,7 @@ const std::vector<Option>& run_options() {
         {"threads", "N", "Worker threads; the bytes are the same at any number. [default: all processors]"},
         {"dry-run", "", "Shows what would be read and written, and stops.", true},
         {"report", "FILE", "Writes times, memory, evaluations and warnings as JSON."},
+        {"html", "FILE", "Writes a page of figures, curves, times and warnings."},
         {"depfile", "FILE", "Writes a dependency file in gcc's format."},
         {"json", "", "Prints the report on stdout.", true},
         {"quiet", "", "Shows errors alone.", true},
@@ -31,8 +33,8 @@ void print_plan(const run::RunReport& report) {
     for (const run::BakeReport& bake : report.bakes) {
         std::printf("%s (%s)\n", bake.bake->name.c_str(), bake.bake->kind.c_str());
         for (const job::Source& source : bake.bake->sources)
-            std::printf("  reads   %s\n",
-                        source.file.empty() ? source.read.path.c_str() : source.file.c_str());
+            if (source.file.empty()) std::printf("  reads   %s\n", source.read.path.c_str());
+        for (const auto& file : bake.reads) std::printf("  reads   %s\n", file.c_str());
         for (const auto& file : bake.writes) std::printf("  writes  %s\n", file.c_str());
     }
     for (const auto& file : report.manifests) std::printf("writes  %s\n", file.c_str());
@@ -43,6 +45,7 @@ ExitCode write_extras(const run::RunReport& report, const Given& given) {
     try {
         if (const auto file = given.find("report"))
             run::write_atomically(*file, job::to_text(run::report_json(report)));
+        if (const auto file = given.find("html")) run::write_atomically(*file, verify::run_page(report));
         if (const auto file = given.find("depfile")) run::write_atomically(*file, run::depfile_text(report));
         return report.code;
     } catch (const Error& error) {

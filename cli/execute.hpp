@@ -8,7 +8,7 @@
 
 namespace pbrbake::cli {
 
-/// --threads, --dry-run, --report, --depfile, --json, --quiet.
+/// --threads, --dry-run, --report, --html, --depfile, --json, --quiet.
 OptionGroup run_option_group();
 
 /// Whether an option is one of those.

@@ -108,22 +108,14 @@ std::uint64_t bytes_of(const JsonFields& fields, const char* key, std::uint64_t 
 }
 
 /// The part of a buffer that a view is.
-GltfBytes view_bytes(const GltfFile& gltf, const JsonFields& view, const std::string& file) {
-    const std::vector<JsonFields> buffers = JsonFields(gltf.json, file).objects("buffers");
-    const auto index = view.index("buffer", buffers.size());
-    if (!index) view.refuse("buffer", "the index of a buffer");
-    const std::uint64_t offset = bytes_of(view, "byteOffset", 0), size = bytes_of(view, "byteLength", 1),
-                        whole = bytes_of(buffers[*index], "byteLength", 1);
-    if (offset > whole || size > whole - offset)
-        throw malformed(view.place(), 0,
-                        "found bytes " + std::to_string(offset) + " to " + std::to_string(offset) + " + " +
-                            std::to_string(size) + "; its buffer has " + std::to_string(whole));
-    GltfBytes bytes = gltf_buffer(gltf, *index, file);
-    bytes.offset = offset;
-    bytes.size = size;
+GltfBytes view_bytes(const GltfFile& gltf, const GltfView& view, const std::string& file) {
+    GltfBytes bytes = gltf_buffer(gltf, view.buffer, file);
+    bytes.offset = view.offset;
+    bytes.size = view.size;
     const std::span<const std::byte> own = bytes.own();
     if (!own.empty()) {
-        const auto part = own.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));
+        const auto part =
+            own.subspan(static_cast<std::size_t>(view.offset), static_cast<std::size_t>(view.size));
         if (bytes.decoded.empty())
             bytes.chunk = part;
         else
@@ -160,6 +152,18 @@ bool is_embedded(const JsonFields& image) {
     return uri.starts_with("data:");
 }
 
+GltfView gltf_view(const JsonFields& view, const std::vector<JsonFields>& buffers) {
+    const auto buffer = view.index("buffer", buffers.size());
+    if (!buffer) view.refuse("buffer", "the index of a buffer");
+    const std::uint64_t offset = bytes_of(view, "byteOffset", 0), size = bytes_of(view, "byteLength", 1),
+                        whole = bytes_of(buffers[*buffer], "byteLength", 1);
+    if (offset > whole || size > whole - offset)
+        throw malformed(view.place(), 0,
+                        "found bytes " + std::to_string(offset) + " to " + std::to_string(offset) + " + " +
+                            std::to_string(size) + "; its buffer has " + std::to_string(whole));
+    return {*buffer, offset, size};
+}
+
 GltfBytes gltf_buffer(const GltfFile& gltf, std::size_t index, const std::string& file) {
     const std::vector<JsonFields> buffers = JsonFields(gltf.json, file).objects("buffers");
     const JsonFields& buffer = element(buffers, index, "buffers", file);
@@ -188,7 +192,7 @@ GltfBytes gltf_picture(const GltfFile& gltf, std::size_t index, const std::strin
         const std::vector<JsonFields> views = root.objects("bufferViews");
         const std::size_t view = *image.index("bufferView", views.size());
         check_type(image.text({"mimeType"}, ""), image.place() + "/mimeType");
-        return view_bytes(gltf, views[view], file);
+        return view_bytes(gltf, gltf_view(views[view], root.objects("buffers")), file);
     }
     const std::string uri = image.text({"uri"}, "");
     if (!is_embedded(image)) return {file_of(uri, image), 0, 0, {}, {}};

@@ -42,6 +42,15 @@ GltfFile parse_gltf(std::span<const std::byte> bytes, const std::string& file);
 /// a bufferView.
 bool is_embedded(const JsonFields& image);
 
+/// Where a buffer view lies.
+struct GltfView {
+    std::size_t buffer;
+    std::uint64_t offset, size;  ///< within the buffer's byteLength
+};
+
+/// A buffer view. Throws Error(unreadable_input) for one that is not inside its buffer.
+GltfView gltf_view(const JsonFields& view, const std::vector<JsonFields>& buffers);
+
 /// A buffer. Throws Error(unreadable_input) for malformed URIs, and for files outside the document's folder.
 GltfBytes gltf_buffer(const GltfFile& gltf, std::size_t index, const std::string& file);
 

@@ -59,11 +59,6 @@ class Gltf {
         if (!info) return {};
         const auto index = info->index("index", textures_.size());
         if (!index) info->refuse("index", "the index of a texture, which is missing");
-        const auto note = [&](const char* code, const std::string& message) {
-            material.diagnostics.push_back({Severity::warning, code, 0, std::string(key) + message});
-        };
-        if (info->number({"texCoord"}, 0) != 0)
-            note("texture_coordinates", " has texture coordinates of its own");
         const JsonFields& texture = textures_[*index];
         if (const auto sampler = texture.index("sampler", samplers_.size()))
             material.is_clamped |= samplers_[*sampler].number({"wrapS"}, 0) == kClampToEdge;
@@ -77,6 +72,7 @@ class Gltf {
 
     static UvTransform transform(const JsonFields& info) {
         UvTransform result;
+        result.set = info.number({"texCoord"}, 0);
         const auto extensions = info.object({"extensions"});
         const auto given = extensions ? extensions->object({"KHR_texture_transform"}) : std::nullopt;
         if (!given) return result;
@@ -86,6 +82,7 @@ class Gltf {
         pair("offset", result.offset);
         pair("scale", result.scale);
         result.rotation = given->number({"rotation"}, 0);
+        result.set = given->number({"texCoord"}, result.set);
         return result;
     }
 

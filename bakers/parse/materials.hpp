@@ -19,7 +19,12 @@ namespace pbrbake::parse {
 struct UvTransform {
     glm::dvec2 offset{0}, scale{1};
     double rotation = 0;  ///< radians
+    double set = 0;       ///< which of a mesh's sets of coordinates: TEXCOORD_0, …
+
     bool operator==(const UvTransform&) const = default;
+    bool is_moved_like(const UvTransform& other) const {
+        return offset == other.offset && scale == other.scale && rotation == other.rotation;
+    }
 };
 
 /// A picture that a material names.

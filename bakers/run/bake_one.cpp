@@ -32,6 +32,20 @@ bool is_main_document(const job::Bake& bake, const std::string& suffix) {
     return find_format(bake.format)->is_document() && suffix == bake.format;
 }
 
+/// Files that a bake will write, as far as the sources that are known tell.
+std::vector<fs::path> outputs_of(const job::Job& job, const job::Bake& bake, const Inputs& known) {
+    std::vector<fs::path> files{(job.output / bake.file).lexically_normal()};
+    if (bake.baker->images)
+        for (const std::string& name : bake.baker->images(bake.json))
+            files.push_back((job.output / job::image_file(bake, name)).lexically_normal());
+    if (bake.baker->documents)
+        for (const std::string& suffix : bake.baker->documents(bake.json, known))
+            if (!is_main_document(bake, suffix))
+                files.push_back((job.output / document_file(bake, suffix)).lexically_normal());
+    if (job.record == job::Record::sidecar) files.push_back(sidecar_file(job, bake));
+    return files;
+}
+
 PixelType pixel_of(const Product& product, const job::Bake& bake) {
     return product.pixel.value_or(bake.pixel);
 }
@@ -49,12 +63,37 @@ Product baked(const job::Bake& bake, const Inputs& inputs, Context& context) {
 class BakeRun {
   public:
     BakeRun(const job::Job& job, const job::Bake& bake, const Options& options)
-        : job_(job), bake_(bake), options_(options), report_(plan_bake(job, bake)), sources_(bake.sources) {}
+        : job_(job),
+          bake_(bake),
+          options_(options),
+          report_(outline_bake(job, bake)),
+          sources_(bake.sources) {}
 
     BakeReport run() {
-        try {
+        guarded([&] {
             run_stages();
             report_.status = report_.error.empty() ? Status::done : Status::accuracy_missed;
+        });
+        report_.peak_memory_bytes = peak_memory_bytes();
+        return std::move(report_);
+    }
+
+    BakeReport plan() {
+        if (bake_.baker->follow) guarded([&] { look_ahead(); });
+        return std::move(report_);
+    }
+
+    Inputs decoded() {
+        decode();
+        return std::move(inputs_);
+    }
+
+  private:
+    /// What a step throws goes into the report.
+    template <class Step>
+    void guarded(Step step) {
+        try {
+            step();
         } catch (const Cancelled&) {
             end(Status::interrupted, ExitCode::interrupted, "interrupted");
         } catch (const Error& error) {
@@ -65,16 +104,8 @@ class BakeRun {
             end(Status::failed, ExitCode::mixed_failures,
                 std::string("internal error, please report: ") + error.what());
         }
-        report_.peak_memory_bytes = peak_memory_bytes();
-        return std::move(report_);
     }
 
-    Inputs decoded() {
-        decode();
-        return std::move(inputs_);
-    }
-
-  private:
     void run_stages() {
         if (bake_.error) throw *bake_.error;
         timed(Stage::decode, [&] { decode(); });
@@ -119,21 +150,34 @@ class BakeRun {
         warn_of_assumptions();
         for (const fs::path& buffer : embedded_.buffers()) report_.reads.push_back(buffer);
         if (!bake_.baker->follow) return;
-        for (const Read& read : bake_.baker->follow(inputs_)) follow(read);
+        for (const Read& read : bake_.baker->follow(inputs_)) {
+            const auto source = followed(read);
+            if (!source) continue;
+            inputs_.emplace(read.field, io::read_text_source(source->file));
+            report_.reads.push_back(source->file);
+            sources_.push_back(*source);
+        }
+    }
+
+    /// The first source names files, of which some are read and some may be written.
+    void look_ahead() {
+        const job::Source& first = sources_.front();
+        const Inputs known{{first.read.field, read(first)}};
+        for (const Read& read : bake_.baker->follow(known))
+            if (const auto source = followed(read)) report_.reads.push_back(source->file);
+        report_.writes = outputs_of(job_, bake_, known);
     }
 
     /// A file that the first source names. What leads out of that source's folder counts as absent: a
     /// downloaded file must not choose what is read.
-    void follow(const Read& read) {
+    std::optional<job::Source> followed(const Read& read) const {
         const fs::path path(read.path);
         const bool inside =
             path.is_relative() && std::find(path.begin(), path.end(), fs::path("..")) == path.end();
-        const job::Source source{read, sources_.front().file.parent_path() / path};
+        job::Source source{read, sources_.front().file.parent_path() / path};
         std::error_code error;
-        if (!inside || !fs::is_regular_file(source.file, error)) return;
-        inputs_.emplace(read.field, io::read_text_source(source.file));
-        report_.reads.push_back(source.file);
-        sources_.push_back(source);
+        if (!inside || !fs::is_regular_file(source.file, error)) return {};
+        return source;
     }
 
     SourceImage builtin(const std::string& path) const {
@@ -299,23 +343,20 @@ class BakeRun {
 
 }  // namespace
 
-BakeReport plan_bake(const job::Job& job, const job::Bake& bake) {
+BakeReport outline_bake(const job::Job& job, const job::Bake& bake) {
     BakeReport report;
     report.job = &job;
     report.bake = &bake;
     report.warnings = bake.warnings;
-    for (const job::Source& source : bake.sources)
-        if (!source.file.empty()) report.reads.push_back(source.file);
-    report.writes.push_back((job.output / bake.file).lexically_normal());
-    if (bake.baker->images)
-        for (const std::string& name : bake.baker->images(bake.json))
-            report.writes.push_back((job.output / job::image_file(bake, name)).lexically_normal());
-    if (bake.baker->documents)
-        for (const std::string& suffix : bake.baker->documents(bake.json))
-            if (!is_main_document(bake, suffix))
-                report.writes.push_back((job.output / document_file(bake, suffix)).lexically_normal());
-    if (job.record == job::Record::sidecar) report.writes.push_back(sidecar_file(job, bake));
+    for (const job::Source& source : bake.sources)  // pictures may be embedded in one file
+        if (!source.file.empty() && std::ranges::find(report.reads, source.file) == report.reads.end())
+            report.reads.push_back(source.file);
+    report.writes = outputs_of(job, bake, {});
     return report;
+}
+
+BakeReport plan_bake(const job::Job& job, const job::Bake& bake, const Options& options) {
+    return BakeRun(job, bake, options).plan();
 }
 
 BakeReport run_bake(const job::Job& job, const job::Bake& bake, const Options& options) {

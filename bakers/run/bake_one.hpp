@@ -5,8 +5,12 @@
 
 namespace pbrbake::run {
 
-/// What a bake will read and write, before it runs.
-BakeReport plan_bake(const job::Job& job, const job::Bake& bake);
+/// What a bake will read and write, of the job alone.
+BakeReport outline_bake(const job::Job& job, const job::Bake& bake);
+
+/// What it will read and write, and what files a source names besides, which is opened for that. Throws
+/// nothing: a source that can't be read fails, as it would the bake.
+BakeReport plan_bake(const job::Job& job, const job::Bake& bake, const Options& options);
 
 /// Runs it. Throws nothing: every failure is in the report.
 BakeReport run_bake(const job::Job& job, const job::Bake& bake, const Options& options);

@@ -56,7 +56,7 @@ const BakeReport* failed_part(const job::Bake& bake, std::span<const BakeReport>
 
 /// What joins a failed bake fails with it: what that wrote earlier is out of date.
 BakeReport left_out(const job::Job& job, const job::Bake& bake, const BakeReport& part) {
-    BakeReport report = plan_bake(job, bake);
+    BakeReport report = outline_bake(job, bake);
     report.status = Status::failed;
     report.code = part.code;
     report.error = bake.file + ": isn't written, because \"" + part.bake->name + "\" failed";
@@ -72,7 +72,9 @@ bool run_job(const job::Job& job, const Options& options, RunReport& report) {
                                                               bake.name) != options.only.end();
         if (!wanted || interrupted) continue;
         if (options.dry_run && !bake.error) {
-            report.bakes.push_back(plan_bake(job, bake));
+            report.bakes.push_back(plan_bake(job, bake, options));
+            if (options.observer && report.bakes.back().status == Status::failed)
+                options.observer->finished(report.bakes.back());
             continue;
         }
         if (options.observer) options.observer->started(bake);

@@ -157,9 +157,9 @@ std::string uri_of(const std::string& file) {
 }
 
 void find_extensions(const Json& json, std::set<std::string>& names) {
-    if (!json.is_object()) return;
+    if (!json.is_structured()) return;
     for (const auto& [key, value] : json.items()) {
-        if (key == "extensions")
+        if (key == "extensions" && value.is_object())
             for (const auto& [name, extension] : value.items()) names.insert(name);
         find_extensions(value, names);
     }

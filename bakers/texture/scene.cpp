@@ -9,6 +9,7 @@
 
 #include "bakers/parse/gltf_file.hpp"
 #include "bakers/parse/materials.hpp"
+#include "bakers/texture/gltf_buffers.hpp"
 #include "bakers/texture/gltf_document.hpp"
 
 namespace pbrbake::texture {
@@ -37,12 +38,16 @@ bool is_specular_gloss(const Json& material) {
     return member(member(material, "extensions"), kSpecularGloss).is_object();
 }
 
-/// A file that stays in use.
+/// A buffer or an image that stays in use, and is written beside the document.
 struct Kept {
-    std::string field;   ///< in the inputs
-    std::string path;    ///< beside the source
-    std::string suffix;  ///< of the document that it becomes
-    Json::json_pointer uri;
+    std::string list;  ///< "buffers" or "images"
+    std::size_t index;
+    std::string path;                ///< beside the source; "": the source holds it itself
+    std::string suffix;              ///< of the file that it becomes
+    std::vector<Stretch> stretches;  ///< of a buffer; none: it stays whole
+
+    /// In the inputs.
+    std::string field() const { return list + "." + std::to_string(index); }
 };
 
 class Scene {
@@ -52,8 +57,12 @@ class Scene {
         JsonFields(document(), source_.name).objects("textures");  // refuses what is no list
         std::size_t part = 0;
         for (Json& material : document()["materials"])
-            if (is_specular_gloss(material)) replace(material, inputs.at("part." + std::to_string(part++)));
+            if (is_specular_gloss(material)) {
+                const auto input = inputs.find("part." + std::to_string(part++));
+                replace(material, input == inputs.end() ? nullptr : &input->second);
+            }
         if (has_known_extensions()) drop_unused();
+        if (names_views_plainly(document())) drop_unused_bytes();
         list_extensions();
         find_kept("buffers");
         find_kept("images");
@@ -64,18 +73,11 @@ class Scene {
     Product product(const Inputs& inputs, const std::string& file) {
         const std::string stem = file.substr(0, file.find_last_of('.'));
         Product product;
+        for (const Kept& kept : kept_)
+            product.documents.push_back({kept.suffix, nullptr, bytes_of(kept, inputs)});
         for (const Kept& kept : kept_) {
-            const auto input = inputs.find(kept.field);
-            if (input == inputs.end())
-                throw parse::malformed(source_.name, 0,
-                                       "names the file \"" + kept.path + "\", which is not there");
-            add_file(input->second.bytes, kept.suffix, product);
-            document()[kept.uri] = uri_of(stem + "." + kept.suffix);
-        }
-        if (!gltf_.chunk.empty() && document().contains("buffers") &&
-            !document()["buffers"][0].contains("uri")) {
-            add_file(gltf_.chunk, "bin", product);
-            document()["buffers"][0]["uri"] = uri_of(stem + ".bin");
+            if (!kept.stretches.empty()) describe_stretches(kept.stretches, kept.index, document());
+            document()[kept.list][kept.index]["uri"] = uri_of(stem + "." + kept.suffix);
         }
         product.documents.insert(product.documents.begin(), {"gltf", std::move(document()), ""});
         return product;
@@ -84,18 +86,32 @@ class Scene {
   private:
     Json& document() { return gltf_.json; }
 
-    static void add_file(std::span<const std::byte> bytes, const std::string& suffix, Product& product) {
-        product.documents.push_back(
-            {suffix, nullptr, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}});
+    std::string bytes_of(const Kept& kept, const Inputs& inputs) const {
+        parse::GltfBytes own;
+        std::span<const std::byte> bytes;
+        if (kept.path.empty()) {
+            own = parse::gltf_buffer(gltf_, kept.index, source_.name);
+            bytes = own.own();
+        } else {
+            const auto input = inputs.find(kept.field());
+            if (input == inputs.end())
+                throw parse::malformed(source_.name, 0,
+                                       "names the file \"" + kept.path + "\", which is not there");
+            bytes = input->second.bytes;
+        }
+        if (kept.stretches.empty()) return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+        const Stretch& last = kept.stretches.back();
+        if (last.from + last.size > bytes.size())
+            throw parse::malformed(source_.name, 0,
+                                   "reads " + std::to_string(last.from + last.size) +
+                                       " bytes of the file \"" + kept.path + "\", which has " +
+                                       std::to_string(bytes.size()));
+        return stretch_bytes(kept.stretches, bytes);
     }
 
     /// The baked material over the old one's name, extras and other extensions. Its textures are read where
-    /// those were that they come from, with the same sampler.
-    void replace(Json& material, const SourceImage& part) {
-        const std::string text(reinterpret_cast<const char*>(part.bytes.data()), part.bytes.size());
-        const Json gltf = parse::parse_json_source(text, part.name)["gltf"];
-        const std::string name = part.name.substr(part.name.find_last_of("/\\") + 1);
-        const std::string stem = name.substr(0, name.size() - std::string_view(kPartDocument).size() - 1);
+    /// those were that they come from, with the same sampler. Null: what it will be isn't known yet.
+    void replace(Json& material, const SourceImage* part) {
         const Json old = material;
         for (const char* key :
              {"pbrMetallicRoughness", "normalTexture", "occlusionTexture", "emissiveTexture",
@@ -104,6 +120,11 @@ class Scene {
         for (const char* key : {kSpecularGloss, "KHR_materials_ior", "KHR_materials_specular",
                                 "KHR_materials_emissive_strength"})
             material["extensions"].erase(key);
+        if (!part) return;
+        const std::string text(reinterpret_cast<const char*>(part->bytes.data()), part->bytes.size());
+        const Json gltf = parse::parse_json_source(text, part->name)["gltf"];
+        const std::string name = part->name.substr(part->name.find_last_of("/\\") + 1);
+        const std::string stem = name.substr(0, name.size() - std::string_view(kPartDocument).size() - 1);
         Json baked = gltf["material"];
         std::map<std::size_t, std::size_t> textures;  // by image of the part
         for_each_texture(baked, [&](const std::string& key, Json& info) {
@@ -199,6 +220,21 @@ class Scene {
         keep("images", images);
     }
 
+    /// Buffers that held pictures alone go, and of others what held them.
+    void drop_unused_bytes() {
+        const JsonFields root(document(), source_.name);
+        const std::vector<JsonFields> views = root.objects("bufferViews"), all = root.objects("buffers");
+        for (const JsonFields& view : views) parse::gltf_view(view, all);  // named as the source has them
+        keep("bufferViews", view_users(document()));
+        std::vector<Json*> buffers;
+        if (document().contains("bufferViews"))
+            for (Json& view : document()["bufferViews"]) buffers.push_back(&view["buffer"]);
+        is_cut_ = buffers.size() < views.size();
+        if (!is_cut_) return;
+        if (std::ranges::none_of(buffers, [](const Json* index) { return *index == 0; })) gltf_.chunk = {};
+        keep("buffers", buffers);
+    }
+
     void list_extensions() {
         std::set<std::string> found;
         for (const Json& material : document()["materials"]) find_extensions(material, found);
@@ -214,21 +250,29 @@ class Scene {
         }
     }
 
-    /// Files of buffers or images that are not the baked ones.
+    /// Buffers or images with files that aren't baked ones, and buffers of the source that are to be written.
     void find_kept(const std::string& list_name) {
         const std::vector<JsonFields> list = JsonFields(document(), source_.name).objects(list_name);
         for (std::size_t i = 0; i < list.size(); ++i) {
             const std::string uri = list[i].text({"uri"}, ""), number = std::to_string(i);
-            if (uri.empty() || uri.starts_with("data:") || is_baked(uri)) continue;
-            const std::string path = parse::path_of_uri(uri);
-            if (const auto refusal = parse::path_refusal(path))
-                throw parse::malformed(list[i].place() + "/uri", 0, "\"" + path + "\" " + *refusal);
-            const std::size_t dot = path.find_last_of("./");
-            const std::string end = dot != path.npos && path[dot] == '.' ? path.substr(dot + 1) : "bin";
-            kept_.push_back(
-                {list_name + "." + number, path,
-                 list_name == "buffers" ? i == 0 ? "bin" : number + ".bin" : "image" + number + "." + end,
-                 Json::json_pointer("/" + list_name + "/" + number + "/uri")});
+            if (is_baked(uri)) continue;
+            Kept kept{list_name, i, "", i == 0 ? "bin" : number + ".bin", {}};
+            if (list_name == "buffers" && is_cut_)
+                kept.stretches = covered_stretches(document(), i, source_.name);
+            if (uri.empty() || uri.starts_with("data:")) {
+                const bool is_chunk = uri.empty() && i == 0 && !gltf_.chunk.empty();
+                if (list_name == "buffers" && (is_chunk || is_cut_)) kept_.push_back(std::move(kept));
+                continue;
+            }
+            kept.path = parse::path_of_uri(uri);
+            if (const auto refusal = parse::path_refusal(kept.path))
+                throw parse::malformed(list[i].place() + "/uri", 0, "\"" + kept.path + "\" " + *refusal);
+            if (list_name == "images") {
+                const std::size_t dot = kept.path.find_last_of("./");
+                const bool has_end = dot != kept.path.npos && kept.path[dot] == '.';
+                kept.suffix = "image" + number + "." + (has_end ? kept.path.substr(dot + 1) : "bin");
+            }
+            kept_.push_back(std::move(kept));
         }
     }
 
@@ -237,6 +281,7 @@ class Scene {
     const SourceImage& source_;
     parse::GltfFile gltf_;
     std::set<std::string> baked_uris_;
+    bool is_cut_ = false;  ///< buffers hold more than the document still reads
     std::vector<Kept> kept_;
 };
 
@@ -255,8 +300,17 @@ std::vector<Read> scene_reads(const Json& bake) {
 std::vector<Read> scene_files(const Inputs& inputs) {
     std::vector<Read> files;
     const Scene scene(inputs);
-    for (const Kept& kept : scene.kept()) files.push_back({kept.field, kept.path, "", Read::As::text});
+    for (const Kept& kept : scene.kept())
+        if (!kept.path.empty()) files.push_back({kept.field(), kept.path, "", Read::As::text});
     return files;
+}
+
+std::vector<std::string> scene_documents(const Inputs& inputs) {
+    std::vector<std::string> suffixes{"gltf"};
+    if (!inputs.contains("source")) return suffixes;
+    const Scene scene(inputs);
+    for (const Kept& kept : scene.kept()) suffixes.push_back(kept.suffix);
+    return suffixes;
 }
 
 Product bake_scene(const Inputs& inputs, const std::string& product_file) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "bakers/parse/materials.hpp"
@@ -59,7 +60,7 @@ class Filling {
         if (!path.ends_with(map.path.substr(map.path.starts_with("./") ? 2 : 0)))
             warn(map.said + ": took \"" + path + "\" for \"" + map.path + "\"", map.line);
         bake_[field] = path;
-        transforms_.push_back(map.transform);
+        transforms_[field] = map.transform;
     }
 
     /// A picture "base" + one of the endings, of any kind that is read.
@@ -83,13 +84,29 @@ class Filling {
                                    [&](const char* field) { return states(field); });
     }
 
-    /// What moves the pictures, if it moves all of them alike.
-    void finish_transform() {
+    /// What moves the pictures, if it moves all of them alike. A whole document that the material is a part
+    /// of keeps where each of its textures is read; specular goes into pictures that are read where diffuse
+    /// is.
+    void finish_transform(bool is_part) {
         if (transforms_.empty()) return;
-        const parse::UvTransform& first = transforms_.front();
-        if (std::ranges::any_of(transforms_, [&](const auto& other) { return other != first; }))
-            return warn("its pictures are moved or repeated differently; they are all left in place");
-        if (first == parse::UvTransform{}) return;
+        const parse::UvTransform first = transforms_.begin()->second;
+        bool is_moved_alike = true, has_sets = false;
+        for (const auto& [field, transform] : transforms_) {
+            is_moved_alike &= transform.is_moved_like(first);
+            has_sets |= transform.set != 0;
+        }
+        if (is_part) {
+            if (transforms_.contains("diffuse") && transforms_.contains("specular") &&
+                transforms_["diffuse"] != transforms_["specular"])
+                warn(
+                    "its specular picture has other texture coordinates than its diffuse one; they are left "
+                    "out");
+        } else {
+            if (has_sets) warn("its pictures have texture coordinates of their own; the first are taken");
+            if (!is_moved_alike)
+                warn("its pictures are moved or repeated differently; they are all left in place");
+        }
+        if (!is_moved_alike || first.is_moved_like({})) return;
         set("uv_offset", {first.offset.x, first.offset.y});
         set("uv_scale", {first.scale.x, first.scale.y});
         set("uv_rotation", first.rotation);
@@ -121,7 +138,7 @@ class Filling {
     const FileQueries& files_;
     const std::string& source_;
     std::string material_;
-    std::vector<parse::UvTransform> transforms_;
+    std::map<std::string, parse::UvTransform> transforms_;  ///< by field
 };
 
 /// An unmapped factor of 1 says nothing in a job, but a material that states it means it.
@@ -244,7 +261,7 @@ void fill_emission(const LegacyMaterial& material, const Json& bake, Filling& fi
     if (material.emissive_factor) fill.set_vector("emissive_factor", *material.emissive_factor);
 }
 
-void fill_from_material(const LegacyMaterial& material, Expansion& expansion, Filling& fill) {
+void fill_from_material(const LegacyMaterial& material, bool is_part, Expansion& expansion, Filling& fill) {
     fill.set_material(material.name);
     for (const parse::Diagnostic& found : material.diagnostics) fill.warn(found.message, found.line);
     if (material.lobe == MaterialLobe::stated) {
@@ -278,7 +295,7 @@ void fill_from_material(const LegacyMaterial& material, Expansion& expansion, Fi
     fill.map("normal", material.normal);
     fill.map("occlusion", material.occlusion);
     fill_emission(material, expansion.bake, fill);
-    fill.finish_transform();
+    fill.finish_transform(is_part);
 }
 
 /// Plain JSON says what a job may say, apart from what names and writes a bake.
@@ -350,7 +367,7 @@ Expansion expansion_of(const LegacyMaterial& material, const Json& bake, std::st
     try {
         check_fields(material, source);
         Filling fill(expansion, files, source);
-        fill_from_material(material, expansion, fill);
+        fill_from_material(material, is_scene(bake), expansion, fill);
     } catch (const Error& error) {
         expansion.error = error;
     }

@@ -11,12 +11,10 @@
 #include "bakers/verify/demo_pictures.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/picture.hpp"
+#include "bakers/verify/record_html.hpp"
 
 namespace pbrbake::verify {
 namespace {
-
-/// "a … b" with what stands for a range in words.
-std::string range(double low, double high) { return number(low) + " to " + number(high); }
 
 /// A setting, without the zeros that measured numbers end with.
 std::string plain(double value) {
@@ -24,8 +22,6 @@ std::string plain(double value) {
     std::snprintf(text.data(), text.size(), "%.3g", value);
     return text.data();
 }
-
-std::string escaped_text(const Json& value) { return escaped(value.get<std::string>()); }
 
 std::string figure_html(const std::string& pictures, const std::string& caption, const char* kind = "") {
     return std::string("<figure") + kind + ">" + pictures + "<figcaption>" + caption +
@@ -43,22 +39,7 @@ std::uint64_t evaluations(const run::BakeReport& report) {
     return sum;
 }
 
-run::Seconds seconds_of(const run::BakeReport& report, run::Stage stage) {
-    const auto found = report.seconds.find(stage);
-    return found == report.seconds.end() ? run::Seconds{} : found->second;
-}
-
 const Json& headline(const run::BakeReport& report) { return report.entry["certificate"]["headline"]; }
-
-/// "0.0123 <small>estimate, 95 % in 0.01 to 0.02</small>"; `gap` stands before the small print.
-std::string certified(const Json& figure, const char* gap = " ") {
-    std::string html =
-        number(figure["value"].get<double>()) + gap + "<small>" + escaped_text(figure["evidence"]);
-    if (figure.contains("interval"))
-        html +=
-            ", 95 % in " + range(figure["interval"][0].get<double>(), figure["interval"][1].get<double>());
-    return html + "</small>";
-}
 
 /// The figure of a metric at a level, or null.
 const Json* figure_at(const run::BakeReport& report, const std::string& metric, int level) {
@@ -116,8 +97,6 @@ class DemoPage {
     std::string probe_section(const Environment& environment) const;
     std::string balls(const Environment& environment) const;
     std::string level_table(const Environment& environment) const;
-    std::string stage_table(const std::vector<const run::BakeReport*>& bakes,
-                            const std::vector<std::string>& titles) const;
     std::string facts(const run::BakeReport& report) const;
     std::string table_section() const;
     std::string reading() const;
@@ -291,26 +270,6 @@ std::string DemoPage::level_table(const Environment& environment) const {
            table.html();
 }
 
-std::string DemoPage::stage_table(const std::vector<const run::BakeReport*>& bakes,
-                                  const std::vector<std::string>& titles) const {
-    std::vector<std::string> heads{"stage"};
-    for (const std::string& title : titles) {
-        heads.push_back(title + ", wall");
-        heads.push_back("CPU");
-    }
-    Table table(heads);
-    for (std::size_t stage = 0; stage < run::kStageNames.size(); ++stage) {
-        std::vector<std::string> cells{std::string(run::kStageNames[stage])};
-        for (const run::BakeReport* bake : bakes) {
-            const run::Seconds seconds = seconds_of(*bake, static_cast<run::Stage>(stage));
-            cells.push_back(number(seconds.wall) + " s");
-            cells.push_back(number(seconds.cpu) + " s");
-        }
-        table.add(cells);
-    }
-    return "<h3>Time a stage</h3>\n" + table.html();
-}
-
 std::string DemoPage::facts(const run::BakeReport& report) const {
     const Json& entry = report.entry;
     std::string outputs;
@@ -375,13 +334,6 @@ std::string DemoPage::table_section() const {
     }
     charts +=
         chart(rgb_picture(table), "RGB", "the three channels as they lie in the file, clipped to 0 to 1");
-    Table figures({"metric", "value", "evidence", "method"});
-    figures.set_text(2);
-    figures.set_text(3);
-    for (const Json& figure : table_->entry["certificate"]["figures"])
-        figures.add({"<code>" + escaped_text(figure["metric"]) + "</code>",
-                     number(figure["value"].get<double>()), escaped_text(figure["evidence"]),
-                     escaped_text(figure["method"])});
     std::string work;
     for (const auto& [effect, evaluated] : table_->bake_evaluations)
         work += (work.empty() ? "" : ", ") + escaped(effect) + " " + count(evaluated);
@@ -392,7 +344,7 @@ std::string DemoPage::table_section() const {
            "scale + f90 · "
            "bias.</p>\n<div class=charts>" +
            charts + "</div>\n" + false_colour_scale("0", "highest") + "<h3>Certificate</h3>\n" +
-           figures.html() + "<p class=soft>Evaluations: " + work + ".</p>\n" +
+           figures_html(table_->entry["certificate"]) + "<p class=soft>Evaluations: " + work + ".</p>\n" +
            stage_table({table_}, {"bake dfg"}) + "<h3>Record</h3>\n" + facts(*table_);
 }
 

@@ -106,12 +106,6 @@ std::map<std::string, ProductFile> separate_images(const std::vector<std::filesy
     return images;
 }
 
-std::string text(const char* format, double value) {
-    std::array<char, 64> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), format, value);
-    return buffer.data();
-}
-
 }  // namespace
 
 LinearPicture legacy_sphere(const LegacySet& set, int size) {
@@ -172,57 +166,6 @@ Picture sphere_difference(const LinearPicture& a, const LinearPicture& b) {
 
 double sphere_flip(const LinearPicture& a, const LinearPicture& b) {
     return ldr_flip(as_seen(b), as_seen(a)).mean();
-}
-
-std::string light_curve_svg(const Json& document) {
-    constexpr double kWidth = 260, kHigh = 110, kLow = 40, kGap = 14, kLeft = 4;
-    const Json::json_pointer place("/lights/0/falloff/curve/rows");
-    if (!document.contains(place) || document[place].size() < 2) return "";
-    const Json& rows = document[place];
-    const double near = rows.front()[0].get<double>(), far = rows.back()[0].get<double>();
-    double most = -1e9, least = 1e9, worst = 0.1;
-    const auto stops = [](const Json& lux) { return std::log2(std::max(lux.get<double>(), 1e-9)); };
-    for (const Json& row : rows) {
-        for (const int column : {1, 2}) {
-            most = std::max(most, stops(row[column]));
-            least = std::min(least, stops(row[column]));
-        }
-        worst = std::max(worst, std::abs(row[3].get<double>()));
-    }
-    least = std::max(least, most - 16);  // beyond, there is no light to speak of
-    const auto line = [&](const char* style, const auto& y_of) {
-        std::string points;
-        for (const Json& row : rows)
-            points += text("%.1f,", kLeft + (kWidth - kLeft) * std::log(row[0].get<double>() / near) /
-                                                std::log(far / near)) +
-                      text("%.1f ", y_of(row));
-        return "<polyline fill=none " + std::string(style) + " points=\"" + points + "\"/>";
-    };
-    const auto high = [&](int column) {
-        return [&, column](const Json& row) {
-            return kHigh *
-                   (1 - (std::clamp(stops(row[column]), least, most) - least) / std::max(most - least, 1e-9));
-        };
-    };
-    const double middle = kHigh + kGap + kLow / 2;
-    std::string svg = "<svg class=curve viewBox=\"0 -4 " + text("%.0f", kWidth + 4) + " " +
-                      text("%.0f", kHigh + kGap + kLow + 22) +
-                      "\" width=260 height=182 role=img aria-label=\"illuminance over distance\">";
-    svg += "<line x1=4 x2=260 y1=" + text("%.1f", middle) + " y2=" + text("%.1f", middle) +
-           " stroke=\"var(--line)\"/>";
-    svg += line("stroke=\"var(--c8)\" stroke-width=5 stroke-opacity=.35", high(1)) +
-           line("stroke=\"var(--c0)\" stroke-width=1.6", high(2)) +
-           line("stroke=\"var(--c1)\" stroke-width=1.6",
-                [&](const Json& row) { return middle - kLow / 2 * row[3].get<double>() / worst; });
-    const auto label = [&](double x, double y, const char* anchor, const std::string& words) {
-        return "<text font-size=10 fill=\"var(--soft)\" text-anchor=" + std::string(anchor) +
-               " x=" + text("%.0f", x) + " y=" + text("%.0f", y) + ">" + words + "</text>";
-    };
-    svg += label(kWidth, 8, "end", text("%.1f stops", most - least)) +
-           label(kWidth, middle - kLow / 2 + 4, "end", text("± %.2f stops", worst)) +
-           label(kLeft, kHigh + kGap + kLow + 14, "start", text("%.3g m", near)) +
-           label(kWidth, kHigh + kGap + kLow + 14, "end", text("%.3g m", far));
-    return svg + "</svg>";
 }
 
 }  // namespace pbrbake::verify

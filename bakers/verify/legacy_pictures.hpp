@@ -1,6 +1,5 @@
 #pragma once
-// Before and after: a sphere with a legacy texture set as its renderer had it beside what it became, and a
-// light's illuminance over distance.
+// Before and after: a sphere with a legacy texture set as its renderer had it beside what it became.
 
 #include <filesystem>
 #include <string>
@@ -29,9 +28,5 @@ LinearPicture as_seen(LinearPicture sphere);
 Picture sphere_difference(const LinearPicture& a, const LinearPicture& b);
 /// Mean LDR-FLIP of both as_seen().
 double sphere_flip(const LinearPicture& a, const LinearPicture& b);
-
-/// The first light of a conversion's document (schemas/lights.schema.json) as SVG: illuminance in stops over
-/// distance, the source's law and the fitted light, and their difference below; "" if it has no curve.
-std::string light_curve_svg(const Json& document);
 
 }  // namespace pbrbake::verify

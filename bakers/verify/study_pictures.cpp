@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "bakers/job/json_text.hpp"
+#include "bakers/verify/curve_plot.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/picture.hpp"
 #include "pbr/brdf/roughness.hpp"
@@ -154,8 +155,9 @@ void PictureBook::take(const StudiedCase& studied, const StudyPoint& point, cons
     const Key key{studied.asked.name, index};
     const LegacySet* set = legacy_set_of(studied.asked);
     if (product.image.levels.empty()) {
-        const std::string curve =
-            light_curve_svg(job::parse_json(job::read_text(files.front()), files.front().string()));
+        const Json document = job::parse_json(job::read_text(files.front()), files.front().string());
+        const Json::json_pointer of_first("/lights/0/falloff/curve");
+        const std::string curve = document.contains(of_first) ? curve_html(document[of_first]) : "";
         if (!curve.empty()) keep(key, {{curve, "stops over distance"}});
     } else if (set && !reference) {
         keep(key, before_and_after(*set, files));

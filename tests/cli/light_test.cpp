@@ -43,6 +43,20 @@ TEST(LightCommand, WritesEitherDocumentAsProductWithItsRecord) {
     }
 }
 
+TEST(LightCommand, WritesAPageWithTheCurvesOfItsCertificate) {
+    const TemporaryFolder folder;
+    const fs::path source = folder.write("in.json", kLights), out = source.parent_path();
+    const fs::path page = out / "page.html";
+    ASSERT_EQ(run_program({"light", source, "-o", out / "out.json", "--html", page}).code, 0);
+    const std::string html = job::read_text(page);
+    for (const char* words :
+         {"lights everything alike", "stops_rms.linear ramp", "<polyline", "out.gltf", "over 512 distances"})
+        EXPECT_THAT(html, HasSubstr(words));
+    ASSERT_EQ(run_program({"light", out / "none.json", "-o", out / "out.json", "--html", page}).code, 4);
+    EXPECT_THAT(job::read_text(page), HasSubstr("there is no such file"));
+    EXPECT_EQ(run_program({"light", source, "-o", out / "out.json", "--html", out / "in.json/x"}).code, 5);
+}
+
 TEST(LightCommand, GivesTheSameBytesOnAnyNumberOfThreads) {
     const TemporaryFolder folder;
     const fs::path source = folder.write("in.json", kLights), out = source.parent_path();

@@ -429,7 +429,7 @@ TEST(MaterialsScene, OfAJobStandsInItsManifest) {
     EXPECT_EQ(products[2]["inputs"][1]["path"], "s_paint.material.json");
 }
 
-TEST(MaterialsScene, OfABinaryFileKeepsItsBuffer) {
+TEST(MaterialsScene, OfPicturesAloneHasNoBuffer) {
     const std::string picture = png(), size = std::to_string(picture.size());
     const Scene scene("s.glb", glb(gltf_of(R"({"mimeType": "image/png", "bufferView": 0})",
                                            R"(, "bufferViews": [{"buffer": 0, "byteLength": )" + size +
@@ -438,9 +438,138 @@ TEST(MaterialsScene, OfABinaryFileKeepsItsBuffer) {
     const Outcome outcome = scene.bake("out.gltf");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const Json document = read_json(scene.path("out.gltf"));
-    EXPECT_EQ(document["buffers"][0]["uri"], "out.bin");
-    EXPECT_EQ(job::read_text(scene.path("out.bin")).substr(0, picture.size()), picture);
+    for (const char* key : {"buffers", "bufferViews"}) EXPECT_FALSE(document.contains(key)) << key;
+    EXPECT_FALSE(fs::exists(scene.path("out.bin")));
     for (const Json& image : document["images"]) EXPECT_FALSE(image.contains("bufferView"));
+}
+
+/// Three views of a buffer around a replaced picture of odd length and one that stays: floats, shorts that
+/// overlap them, and more floats.
+struct Embedded {
+    std::string picture = png(), kept = png() + "x", floats = "abcdefghijkl", more = "mnopqrst";
+    std::size_t picture_at = 12, kept_at = picture_at + picture.size(),
+                more_at = (kept_at + kept.size() + 3) / 4 * 4;
+
+    std::string buffer() const {
+        std::string bytes = floats + picture + kept;
+        bytes.resize(more_at, '.');
+        return bytes + more;
+    }
+
+    std::string json(const std::string& rest, const std::string& uri = "") const {
+        const auto view = [](std::size_t at, std::size_t size, const std::string& more_members = "") {
+            return R"({"buffer": 0, "byteOffset": )" + std::to_string(at) + R"(, "byteLength": )" +
+                   std::to_string(size) + more_members + "}";
+        };
+        const auto accessor = [](int of, int component, int count) {
+            return R"({"bufferView": )" + std::to_string(of) + R"(, "componentType": )" +
+                   std::to_string(component) + R"(, "type": "SCALAR", "count": )" + std::to_string(count) +
+                   "}";
+        };
+        return R"({"asset": {"version": "2.0"}, "bufferViews": [)" + view(picture_at, picture.size()) + "," +
+               view(0, 12) + "," + view(more_at, 8) + "," + view(kept_at, kept.size()) + "," + view(4, 8) +
+               R"(], "buffers": [{"byteLength": )" + std::to_string(more_at + 8) + uri + R"(}],
+          "accessors": [)" +
+               accessor(1, 5126, 3) + "," + accessor(2, 5126, 2) + "," + accessor(4, 5123, 4) +
+               R"(], "images": [{"bufferView": 0, "mimeType": "image/png"}, {"bufferView": 3, "mimeType": "image/png"}],
+          "textures": [{"source": 0}, {"source": 1}], "materials": [
+            {"name": "crate", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseTexture": {"index": 0}}}},
+            {"name": "kept", "emissiveTexture": {"index": 1}}])" +
+               rest + "}";
+    }
+};
+
+TEST(MaterialsScene, LeavesOutWhatReplacedPicturesHeld) {
+    const Embedded embedded;
+    const std::string bytes = embedded.buffer(),
+                      data = R"(, "uri": "data:application/octet-stream;base64,)" + base64(bytes) + "\"";
+    for (const auto& [file, text] :
+         {std::pair{"s.glb", glb(embedded.json(""), bytes)}, std::pair{"s.gltf", embedded.json("", data)},
+          std::pair{"s.gltf", embedded.json("", R"(, "uri": "b.bin")")}}) {
+        const Scene scene(file, text);
+        scene.add("b.bin", bytes);
+        const Outcome dry = scene.bake("out.gltf", {"--dry-run"});
+        EXPECT_THAT(dry.out, HasSubstr("out.bin"));
+        const Outcome outcome = scene.bake("out.gltf");
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const Json document = read_json(scene.path("out.gltf"));
+        const std::string left = job::read_text(scene.path("out.bin"));
+        EXPECT_EQ(document["buffers"], Json::array({{{"byteLength", left.size()}, {"uri", "out.bin"}}}));
+        EXPECT_LE(left.size(), bytes.size() - embedded.picture.size() + 8);
+        EXPECT_EQ(left.find(embedded.picture.substr(8)), left.find(embedded.kept.substr(8)));
+        ASSERT_EQ(document["bufferViews"].size(), 4u);
+        const auto held = [&](const Json& user) {
+            const Json view = document["bufferViews"][user["bufferView"].get<std::size_t>()];
+            const std::size_t at = view.value("byteOffset", std::size_t{0});
+            EXPECT_TRUE(at % 4 == 0 || !user.contains("componentType"));
+            return left.substr(at, view["byteLength"].get<std::size_t>());
+        };
+        EXPECT_EQ(held(document["accessors"][0]), embedded.floats);
+        EXPECT_EQ(held(document["accessors"][1]), embedded.more);
+        EXPECT_EQ(held(document["accessors"][2]), embedded.floats.substr(4));
+        EXPECT_EQ(held(document["images"][0]), embedded.kept);
+    }
+}
+
+TEST(MaterialsScene, KeepsAllBytesThatAnExtensionMayMean) {
+    const Embedded embedded;
+    const Scene scene(
+        "s.glb", glb(embedded.json(R"(, "extensions": {"EXT_structural_metadata": {}})"), embedded.buffer()));
+    const Outcome outcome = scene.bake("out.gltf");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(job::read_text(scene.path("out.bin")), embedded.buffer());
+    EXPECT_EQ(read_json(scene.path("out.gltf"))["bufferViews"].size(), 5u);
+}
+
+TEST(MaterialsScene, RefusesViewsBeyondTheirBuffers) {
+    const Embedded embedded;
+    std::string json = embedded.json("", R"(, "uri": "b.bin")");
+    const Scene scene("s.gltf", json);
+    scene.add("b.bin", embedded.buffer().substr(0, embedded.more_at + 1));
+    const Outcome outcome = scene.bake("out.gltf");
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("bytes of the file \"b.bin\", which has"));
+    const std::string claim = R"("byteLength": 12)";
+    json.replace(json.find(claim), claim.size(), R"("byteLength": 99999)");
+    scene.add("s.gltf", json);
+    for (std::vector<std::string> flags : {std::vector<std::string>{}, {"--dry-run"}}) {
+        const Outcome beyond = scene.bake("out.gltf", std::move(flags));
+        EXPECT_EQ(beyond.code, 4);
+        EXPECT_THAT(beyond.err,
+                    HasSubstr("s.gltf#/bufferViews/1: found bytes 0 to 0 + 99999; its buffer has"));
+        EXPECT_FALSE(fs::exists(scene.path("out.gltf")));
+    }
+}
+
+TEST(MaterialsScene, TellsBeforehandWhatItWillKeep) {
+    const Scene scene("s.gltf", scene_gltf());
+    for (const char* name : {"old.png", "keep.png"}) scene.add(name, png());
+    scene.add("mesh data.bin", std::string(36, '\0'));
+    const Outcome dry = scene.bake("out/new.gltf", {"--dry-run"});
+    ASSERT_EQ(dry.code, 0) << dry.err;
+    EXPECT_THAT(dry.out, HasSubstr("mesh data.bin"));
+    ASSERT_EQ(scene.bake("out/new.gltf").code, 0);
+    for (const auto& entry : fs::directory_iterator(scene.path("out")))
+        EXPECT_THAT(dry.out, HasSubstr("writes  " + entry.path().string()));
+}
+
+TEST(MaterialsScene, WarnsOfCoordinatesThatItLosesAlone) {
+    // paint's normal has TEXCOORD_1: its own document can't say so, the whole one can.
+    const auto warned = [](const std::string& json, std::vector<std::string> flags) {
+        const Scene scene("s.gltf", json);
+        for (const char* name : {"old.png", "keep.png"}) scene.add(name, png());
+        scene.add("mesh data.bin", std::string(36, '\0'));
+        const Outcome outcome = scene.bake("out.gltf", std::move(flags));
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return outcome.err.find("texture coordinates") != outcome.err.npos;
+    };
+    EXPECT_FALSE(warned(scene_gltf(), {}));
+    EXPECT_TRUE(warned(scene_gltf(), {"--material", "paint"}));
+    std::string apart = scene_gltf();
+    const std::string diffuse = R"("diffuseTexture": {"index": 0},)";
+    apart.replace(apart.find(diffuse), diffuse.size(),
+                  diffuse + R"("specularGlossinessTexture": {"index": 1, "texCoord": 1},)");
+    EXPECT_TRUE(warned(apart, {}));
 }
 
 TEST(MaterialsScene, IsNotWrittenWithoutItsParts) {

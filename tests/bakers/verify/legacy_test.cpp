@@ -71,19 +71,6 @@ TEST(LegacyPictures, AnotherPackingHasNoSphere) {
     EXPECT_TRUE(converted_sphere({"x.exr", "x_orm.exr"}, 24).rgb.empty());
 }
 
-TEST(LightCurve, HasBothLightsAndTheirDifference) {
-    const Json document = Json::parse(R"({"lights": [{"falloff": {"curve": {"rows":
-        [[1, 8, 8, 0], [2, 4, 2, -1], [4, 2, 0.5, -2]]}}}]})");
-    const std::string svg = light_curve_svg(document);
-    EXPECT_THAT(svg, HasSubstr("4.0 stops"));
-    EXPECT_THAT(svg, HasSubstr("± 2.00 stops"));
-    EXPECT_THAT(svg, HasSubstr("1 m"));
-    std::size_t lines = 0;
-    for (std::size_t at = 0; (at = svg.find("<polyline", at)) != std::string::npos; ++at) ++lines;
-    EXPECT_EQ(lines, 3u);
-    EXPECT_EQ(light_curve_svg(Json::object()), "");
-}
-
 TEST(StudyAgainst, TellsTheFurthestRatio) {
     const auto study = [](double fis, double mis) {
         return Json::parse(R"({"cases": [{"name": "room", "base": 0, "points": [
