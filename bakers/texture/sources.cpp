@@ -178,6 +178,13 @@ float Sources::exponent_at(int x, int y) const {
     return exponent(gloss * static_cast<float>(rules_.params.gloss_factor));
 }
 
+float Sources::lobe_exponent(int x, int y) const {
+    float gloss = 1, n = 0;
+    if (gloss_.picture) fetch(gloss_, x, y, &gloss, 1);
+    perceptual_roughness(gloss * static_cast<float>(rules_.params.gloss_factor), n);
+    return n;
+}
+
 /// Of a gloss value times its factor; `n` becomes the exponent.
 float Sources::perceptual_roughness(float gloss, float& n) const {
     const bool is_phong = rules_.params.model == Model::phong;
