@@ -49,6 +49,10 @@ ProductFile read_picture(const fs::path& file) {
         {".jpg", "jpeg"}, {".jpeg", "jpeg"}, {".tga", "tga"}, {".tif", "tiff"}, {".tiff", "tiff"}};
     std::string extension = file.extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".gltf" || extension == ".glb")
+        throw Error(ExitCode::unreadable_input, file.string(),
+                    "is a document; inspect a picture of its base colour, of a material that isn't recorded "
+                    "with --metallic-roughness");
     const auto found = kSources.find(extension);
     if (found == kSources.end()) return read_product_file(file);
     SourceImage source = io::read_source({.path = file, .with_alpha = true});

@@ -259,6 +259,9 @@ TEST(InspectCommand, NamesWhatItCannotTakeTogetherOrRead) {
     Outcome outcome = run_program({"inspect", base, "--metallic", base, "--specular", base});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("--specular: found beside --metallic; allowed: one of the two"));
+    outcome = run_program({"inspect", folder / "scene.gltf"});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("scene.gltf: is a document; inspect a picture of its base colour"));
     outcome = run_program({"inspect", base, "--metallic", folder / "absent.png"});
     EXPECT_EQ(outcome.code, 4);
     EXPECT_THAT(outcome.err, HasSubstr("absent.png"));
