@@ -25,14 +25,13 @@ bool has_pictures(const TextureParams& params) {
 }
 
 /// A map's value of a texel, before codes: what an even sky makes of it against what it made of the source.
-float map_value(ExtraMap map, const Layout& layout, const Rows& rows, std::size_t i,
-                const pbr::MetallicMaterial<float>& material, pbr::Scattering scattering) {
-    if (map == ExtraMap::confidence) return rows.confidence[i];
+float map_value(ExtraMap map, const Layout& layout, const Rows& rows, const Texels& texels, std::size_t x,
+                pbr::Scattering scattering) {
+    if (map == ExtraMap::confidence) return rows.confidence[texels.begin + x];
     constexpr double kLargestDelta = 10, kLargestChange = .5;
-    const Colour before = rows.albedo[i];
-    const Colour after = pbr_albedo(packed_reflection(layout, rows.level, i, material),
-                                    rows.level.perceptual_roughness[i], scattering)
-                             .total();
+    const Colour before = rows.albedo[texels.begin + x];
+    const Unpacked made = packed(layout, texels, x);
+    const Colour after = pbr_albedo(made.reflected, made.f90, made.perceptual_roughness, scattering).total();
     if (map == ExtraMap::difference)
         return static_cast<float>(std::min(1., delta_e(before, after) / kLargestDelta));
     const double energy = static_cast<double>(pbr::mean_channel(before)),
@@ -62,6 +61,9 @@ void warn(const Sources& sources, const Survey& survey, const Findings& found, P
             "surface or calibrate none if it is f0 already");
 }
 
+/// Of lobes with Frostbite's f90 below 1, the largest f0 in a channel over f90: all of it in one channel.
+constexpr float kLargestDimF0 = 1 / (50 * .33f);
+
 /// Levels that a strip of rows makes below its own before it is let go.
 constexpr int kStripLevels = 2;
 
@@ -77,11 +79,10 @@ class SetBake {
           survey_(survey(sources, context)),
           findings_(static_cast<std::size_t>(sources.height())),
           largest_f0_(static_cast<std::size_t>(sources.height())),
+          least_factor_(static_cast<std::size_t>(sources.height()), 1.f),
           is_coded_(context.may_store(PixelType::unorm8) && has_pictures(params_)),
-          store_(params_, layout_, sources.width(), sources.height(), is_coded_) {
-        fine_.resize(static_cast<std::size_t>(sources.width()));
-        fine_.fill(Colour(1e-6f));
-    }
+          rounds_first_(is_coded_ && !params_.dither),
+          store_(params_, layout_, sources.width(), sources.height(), is_coded_) {}
 
     Product run() {
         const int by_strips = std::min(kStripLevels, store_.levels() - 1);
@@ -91,7 +92,8 @@ class SetBake {
             level = make_below(level, l);
         }
         const float unit = layout_.has_residual ? specular_unit() : 1;
-        if (layout_.has_residual) store_.divide_residual(unit);
+        if (least_factor() == 1) layout_.drop_specular_factor();
+        if (layout_.has_residual) store_.divide_residual(unit, layout_.has_specular_factor());
         Product product;
         product.images = store_.take();
         if (context_.may_store(PixelType::unorm8)) product.pixel = PixelType::unorm8;
@@ -112,7 +114,7 @@ class SetBake {
         const bool is_gltf = context_.product_file().ends_with(kGltfEnd);
         std::optional<Unpacked> factors;
         if (is_gltf && !has_pictures(params_)) {
-            factors = unpack(params_, layout_, product.images, 0, 0, unit, 1);
+            factors = unpack(layout_, product.images, 0, 0, unit, 1);
             product.properties["set"]["factors"] = factors_json(*factors);
             product.images.clear();
         }
@@ -202,6 +204,7 @@ class SetBake {
         MapLevel maps;
         maps.width = sources_.width();
         maps.height = sources_.height();
+        if (sources_.has_legacy_lobe()) maps.f90.resize(1);
         if (sources_.has_normal()) maps.normal.resize(1);
         if (sources_.has_occlusion()) maps.occlusion.resize(1);
         if (sources_.has_opacity()) maps.opacity.resize(1);
@@ -212,30 +215,42 @@ class SetBake {
     void store_largest(const Rows& rows, int y) {
         const MapLevel& level = rows.level;
         const auto width = static_cast<std::size_t>(level.width);
-        Texels texels{level, level.at(y), width, {}, {}};
-        make_materials(params_, layout_, rows.tolerance.from(texels.begin), texels);
-        float& largest = largest_f0_[static_cast<std::size_t>(y)];
-        for (std::size_t x = 0; x < width; ++x)
-            if (level.metallic[texels.begin + x] < .99f)
-                largest = std::max(largest, pbr::max_channel(texels.dielectric_f0[x]));
+        Texels texels{level, level.at(y), width, rounds_first_, {}};
+        make_materials(layout_, texels);
+        find_residual(texels, y);
         const std::size_t to = static_cast<std::size_t>(y) * width;
         store(texels, 0, to);
         std::vector<float> values(width);
         const pbr::Scattering scattering = scattering_of(params_);
         for (std::size_t i = 0; i < params_.maps.size(); ++i) {
             for (std::size_t x = 0; x < width; ++x)
-                values[x] = map_value(params_.maps[i], layout_, rows, texels.begin + x, texels.material(x),
-                                      scattering);
+                values[x] = map_value(params_.maps[i], layout_, rows, texels, x, scattering);
             store_.put(layout_.images.size() + i, 0, 0, to, values);
         }
     }
 
     void store_row(const MapLevel& level, int y, int l) {
         const auto width = static_cast<std::size_t>(level.width);
-        Texels texels{level, level.at(y), width, {}, {}};
-        make_materials(params_, layout_, std::as_const(fine_).from(0), texels);
+        Texels texels{level, level.at(y), width, rounds_first_, {}};
+        make_materials(layout_, texels);
         store(texels, static_cast<std::size_t>(l), static_cast<std::size_t>(y) * width);
     }
+
+    /// What row y of the largest level asks of the residual.
+    void find_residual(const Texels& texels, int y) {
+        if (!layout_.has_residual) return;
+        float& largest = largest_f0_[static_cast<std::size_t>(y)];
+        float& least = least_factor_[static_cast<std::size_t>(y)];
+        for (std::size_t x = 0; x < texels.count; ++x) {
+            const float f0 = pbr::max_channel(texels.dielectric_f0[x]);
+            const float factor = texels.specular_factor.empty() ? 1 : texels.specular_factor[x];
+            least = std::min(least, factor);
+            if (texels.level.metallic[texels.begin + x] < .99f)
+                largest = std::max(largest, factor < 1 ? std::min(f0 / factor, kLargestDimF0) : f0);
+        }
+    }
+
+    float least_factor() const { return *std::ranges::min_element(least_factor_); }
 
     /// Into all of the layout's channels, from texel `to` of a level on.
     void store(const Texels& texels, std::size_t l, std::size_t to) {
@@ -261,11 +276,12 @@ class SetBake {
     Context& context_;
     Layout layout_;
     Survey survey_;
-    std::vector<Findings> findings_;  ///< sums of each row
-    std::vector<float> largest_f0_;   ///< of each row's dielectrics
-    bool is_coded_;                   ///< factors alone may end up in a document, as they are
+    std::vector<Findings> findings_;   ///< sums of each row
+    std::vector<float> largest_f0_;    ///< of each row's dielectrics, over their specular_factor
+    std::vector<float> least_factor_;  ///< of each row
+    bool is_coded_;                    ///< factors alone may end up in a document, as they are
+    bool rounds_first_;                ///< Texels::is_coded; codes with noise aren't known before
     Store store_;
-    Planes fine_;  ///< the tolerance of a row of means
 };
 
 /// Which maps a model has.

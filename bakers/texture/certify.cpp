@@ -89,15 +89,14 @@ class Comparer {
     Comparison operator()(std::uint64_t texel) const {
         const auto width = static_cast<std::uint64_t>(sources_.width());
         const auto x = static_cast<int>(texel % width), y = static_cast<int>(texel / width);
-        const Unpacked stored =
-            product_.images.empty()
-                ? factors_from(product_.properties["set"]["factors"], layout_)
-                : unpack(sources_.params(), layout_, product_.images, x, y, unit_, product_.scale);
+        const Unpacked stored = product_.images.empty()
+                                    ? factors_from(product_.properties["set"]["factors"], layout_)
+                                    : unpack(layout_, product_.images, x, y, unit_, product_.scale);
         const pbr::Reflected<float>& after = stored.reflected;
         LegacyTexel legacy = sources_.texel(x, y);
         const pbr::Reflected<float> before = legacy.reflected = calibration_(legacy.reflected);
         const Albedo truth = source_albedo(sources_, calibration_, legacy);
-        const Albedo found = pbr_albedo(after, stored.perceptual_roughness, scattering_);
+        const Albedo found = pbr_albedo(after, stored.f90, stored.perceptual_roughness, scattering_);
         Comparison result;
         result.energy = static_cast<double>(pbr::mean_channel(truth.total()));
         result.energy_off = std::abs(static_cast<double>(pbr::mean_channel(found.total())) - result.energy);

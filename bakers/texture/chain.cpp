@@ -32,13 +32,14 @@ Cover cover(int index, int small, int large) {
 
 struct Sums {
     Colour diffuse{0}, f0{0}, emissive{0};
-    float metallic = 0, occlusion = 0, opacity = 0;
+    float f90 = 0, metallic = 0, occlusion = 0, opacity = 0;
     pbr::SlopeMoments<float> slopes;
 
     void add(const MapLevel& level, std::size_t i, float share) {
         diffuse += share * level.diffuse[i];
         f0 += share * level.f0[i];
         metallic += share * level.metallic[i];
+        if (!level.f90.empty()) f90 += share * level.f90[i];
         if (!level.occlusion.empty()) occlusion += share * level.occlusion[i];
         if (!level.opacity.empty()) opacity += share * level.opacity[i];
         if (!level.emissive.empty()) emissive += share * level.emissive[i];
@@ -50,6 +51,7 @@ struct Sums {
         level.diffuse.set(i, diffuse);
         level.f0.set(i, f0);
         level.metallic[i] = metallic;
+        if (!level.f90.empty()) level.f90[i] = f90;
         level.perceptual_roughness[i] = pbr::perceptual_roughness_from_alpha(slopes.alpha());
         if (!level.normal.empty()) level.normal.set(i, slopes.normal());
         if (!level.occlusion.empty()) level.occlusion[i] = occlusion;
@@ -69,6 +71,7 @@ MapLevel level_below(const MapLevel& level, int levels, int rows) {
     next.f0.resize(next.texels());
     next.metallic.resize(next.texels());
     next.perceptual_roughness.resize(next.texels());
+    if (!level.f90.empty()) next.f90.resize(next.texels());
     if (!level.normal.empty()) next.normal.resize(next.texels());
     if (!level.occlusion.empty()) next.occlusion.resize(next.texels());
     if (!level.opacity.empty()) next.opacity.resize(next.texels());

@@ -9,8 +9,6 @@ namespace pbrbake::texture {
 namespace {
 
 constexpr float kAllLight = 1.001f;  ///< a code's rounding is no sin
-/// Of diffuse albedo, linear: a half interval is wider near white, where an 8-bit code isn't worth more.
-constexpr float kLeastTolerance = 1e-6f, kLargestTolerance = .5f / 255;
 
 }  // namespace
 
@@ -42,12 +40,12 @@ Converter::Converter(const Sources& sources, const Survey& survey, int most_rows
     level.f0.resize(texels);
     level.metallic.resize(texels);
     level.perceptual_roughness.resize(texels);
+    if (sources.has_legacy_lobe()) level.f90.resize(texels);
     if (sources.has_normal()) level.normal.resize(texels);
     if (sources.has_occlusion()) level.occlusion.resize(texels);
     if (sources.has_opacity()) level.opacity.resize(texels);
     if (sources.has_emissive()) level.emissive.resize(texels);
     rows_.confidence.resize(texels);
-    rows_.tolerance.resize(texels);
     const auto asks_for_albedo = [](ExtraMap map) { return map != ExtraMap::confidence; };
     if (std::ranges::any_of(sources.params().maps, asks_for_albedo)) rows_.albedo.resize(texels);
 }
@@ -109,13 +107,11 @@ void Converter::read_own(int y) {
     for (std::size_t c = 0; c < 3; ++c) {
         copy(line_.diffuse.channels[c], level.diffuse.channels[c]);
         copy(line_.f0.channels[c], level.f0.channels[c]);
-        const float* step = line_.diffuse_step.channels[c].data();
-        float* tolerance = rows_.tolerance.channels[c].data() + to;
-        for (std::size_t i = 0; i < count; ++i)
-            tolerance[i] = std::clamp(step[i], kLeastTolerance, kLargestTolerance);
     }
     copy(line_.perceptual_roughness, level.perceptual_roughness);
     copy(metallic_, level.metallic);
+    for (std::size_t i = 0; !level.f90.empty() && i < count; ++i)
+        level.f90[to + i] = source_f90(sources_, line_.f0[i]);
     copy(confidence_, rows_.confidence);
     for (std::size_t i = 0; !rows_.albedo.empty() && i < count; ++i)
         rows_.albedo.set(to + i, source_albedo(sources_, survey_.calibration, line_[i]).total());

@@ -22,8 +22,6 @@ Survey survey(const Sources& sources, Context& context);
 struct Rows {
     MapLevel level;
     std::vector<float> confidence;
-    /// What each texel's diffuse may be moved by: half its file's interval.
-    Planes tolerance;
     /// What each texel of the set returns of an even sky (source_albedo); empty where no map asks for it.
     Planes albedo;
 };

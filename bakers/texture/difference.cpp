@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "pbr/brdf/fresnel.hpp"
 #include "pbr/numerics/elementary.hpp"
 
 namespace pbrbake::texture {
@@ -27,19 +28,25 @@ std::array<double, 3> lab(const Colour& colour) {
 
 }  // namespace
 
-Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness,
+Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float f90, float perceptual_roughness,
                   pbr::Scattering scattering) {
-    const double grey = static_cast<double>(pbr::mean_channel(reflected.f0));
-    const double mean = pbr::mean_specular_albedo(
-        grey, pbr::mean_albedo_ggx(static_cast<double>(perceptual_roughness)), scattering);
-    // The lobe takes f0's colour: energy is kept in the mean channel, as it was solved.
-    return {reflected.diffuse, grey > 0 ? reflected.f0 * static_cast<float>(mean / grey) : Colour(0)};
+    const pbr::MeanAlbedo lobe = pbr::mean_albedo_ggx(static_cast<double>(perceptual_roughness));
+    Colour specular;
+    for (int c = 0; c < 3; ++c)
+        specular[c] = static_cast<float>(pbr::mean_specular_albedo(
+            static_cast<double>(reflected.f0[c]), static_cast<double>(f90), lobe, scattering));
+    return {reflected.diffuse, specular};
+}
+
+float source_f90(const Sources& sources, const Colour& f0) {
+    return sources.has_legacy_lobe() ? pbr::f90_from_f0(f0) : 1;
 }
 
 Albedo source_albedo(const Sources& sources, const Calibration& calibration, const LegacyTexel& calibrated) {
     if (sources.has_legacy_lobe() && calibration.kind == Calibration::Kind::none)
         return {calibrated.reflected.diffuse, calibrated.specular_albedo};
-    return pbr_albedo(calibrated.reflected, calibrated.perceptual_roughness, scattering_of(sources.params()));
+    return pbr_albedo(calibrated.reflected, source_f90(sources, calibrated.reflected.f0),
+                      calibrated.perceptual_roughness, scattering_of(sources.params()));
 }
 
 pbr::Scattering scattering_of(const TextureParams& params) {

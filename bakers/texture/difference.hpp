@@ -12,9 +12,13 @@ struct Albedo {
     Colour total() const { return diffuse + specular; }
 };
 
-/// Of a GGX lobe: its mean albedo per channel, f90 by Frostbite's rule on the mean channel.
-Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float perceptual_roughness,
+/// Of a GGX lobe with a grazing reflectance of f90 in every channel: its mean albedo per channel.
+Albedo pbr_albedo(const pbr::Reflected<float>& reflected, float f90, float perceptual_roughness,
                   pbr::Scattering scattering);
+
+/// Grazing reflectance of a set's texel of that f0. The lobe that stands for Phong's has Frostbite's f90,
+/// which lets it be dim; the other models are glTF's, and have 1.
+float source_f90(const Sources& sources, const Colour& f0);
 
 /// Of a texel of the set whose reflected light is as calibrated. A Phong lobe's specular albedo comes from
 /// its closed form, not from the f0 that was solved for it; a calibrated one's from that f0.

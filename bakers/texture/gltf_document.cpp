@@ -72,8 +72,10 @@ class Material {
             material_["extensions"]["KHR_materials_specular"] = {
                 {"specularColorFactor", {factor, factor, factor}},
                 {"specularColorTexture", texture("specular")}};
+            if (layout_.has_specular_factor())  // the same picture's alpha
+                material_["extensions"]["KHR_materials_specular"]["specularTexture"] = texture("specular");
         } else {
-            add_dielectric_f0(Colour(static_cast<float>(params_.dielectric_f0)));
+            add_dielectric_f0(Colour(layout_.dielectric_f0), 1);
         }
     }
 
@@ -83,22 +85,23 @@ class Material {
             {"baseColorFactor", {base_color.x, base_color.y, base_color.z, 1}},
             {"metallicFactor", metallic},
             {"roughnessFactor", factors.perceptual_roughness}};
-        add_dielectric_f0(dielectric_f0);
+        add_dielectric_f0(dielectric_f0, factors.specular_factor);
     }
 
-    void add_dielectric_f0(const Colour& f0) {
+    /// `factor` is what the dielectric reflects at grazing incidence; it multiplies f0 too.
+    void add_dielectric_f0(const Colour& dielectric_f0, float factor) {
         constexpr float kSame = 1e-6f;
-        if (pbr::max_channel(glm::abs(f0 - Colour(static_cast<float>(kGltfF0)))) < kSame) return;
         Json& extensions = material_["extensions"];
-        if (pbr::max_channel(f0) == 0) {  // no lobe at all, which an index of 1 would leave at grazing angles
-            extensions["KHR_materials_specular"]["specularFactor"] = 0;
-        } else if (pbr::max_channel(glm::abs(f0 - Colour(f0.x))) < kSame) {
-            const double root = std::sqrt(static_cast<double>(f0.x));
-            extensions["KHR_materials_ior"]["ior"] = (1 + root) / (1 - std::min(root, .999));
-        } else {
+        if (factor < 1) extensions["KHR_materials_specular"]["specularFactor"] = factor;
+        const Colour f0 = factor > 0 ? dielectric_f0 / factor : Colour(static_cast<float>(kGltfF0));
+        if (pbr::max_channel(glm::abs(f0 - Colour(f0.x))) >= kSame) {
             extensions["KHR_materials_specular"]["specularColorFactor"] =
                 json_of(f0 / static_cast<float>(kGltfF0));
+        } else if (std::abs(f0.x - static_cast<float>(kGltfF0)) >= kSame) {
+            const double root = std::sqrt(static_cast<double>(f0.x));
+            extensions["KHR_materials_ior"]["ior"] = (1 + root) / (1 - std::min(root, .999));
         }
+        if (extensions.is_null()) material_.erase("extensions");
     }
 
     void add_opacity() {

@@ -69,6 +69,7 @@ struct MapLevel {
     int width = 0, height = 0;  ///< of the level
     int first = 0, rows = 0;
     Planes diffuse, f0;
+    std::vector<float> f90;  ///< grazing reflectance; empty where it is 1
     std::vector<float> metallic, perceptual_roughness;
     Planes normal;                          ///< y up; empty without a normal map
     Planes emissive;                        ///< empty without a map

@@ -7,7 +7,7 @@
 namespace pbrbake::texture {
 namespace {
 
-constexpr std::array<std::string_view, 28> kHeldNames{"0",
+constexpr std::array<std::string_view, 29> kHeldNames{"0",
                                                       "1",
                                                       "base_color.r",
                                                       "base_color.g",
@@ -26,6 +26,7 @@ constexpr std::array<std::string_view, 28> kHeldNames{"0",
                                                       "dielectric_f0.r",
                                                       "dielectric_f0.g",
                                                       "dielectric_f0.b",
+                                                      "specular_factor",
                                                       "emissive.r",
                                                       "emissive.g",
                                                       "emissive.b",
@@ -108,10 +109,12 @@ Json properties_json(const TextureParams& params, const Layout& layout, const Su
 
 Json factors_json(const Unpacked& factors) {
     const auto& [base, metallic, f0] = factors.material;
-    return {{"base_color", {base.x, base.y, base.z}},
-            {"metallic", metallic},
-            {"perceptual_roughness", factors.perceptual_roughness},
-            {"dielectric_f0", {f0.x, f0.y, f0.z}}};
+    Json json{{"base_color", {base.x, base.y, base.z}},
+              {"metallic", metallic},
+              {"perceptual_roughness", factors.perceptual_roughness},
+              {"dielectric_f0", {f0.x, f0.y, f0.z}}};
+    if (factors.specular_factor < 1) json["specular_factor"] = factors.specular_factor;
+    return json;
 }
 
 Unpacked factors_from(const Json& json, const Layout& layout) {
@@ -120,8 +123,8 @@ Unpacked factors_from(const Json& json, const Layout& layout) {
     };
     const pbr::MetallicMaterial<float> material{colour(json["base_color"]), json["metallic"].get<float>(),
                                                 colour(json["dielectric_f0"])};
-    return {material, pbr::reflected_from_metallic(material, layout.coupling),
-            json["perceptual_roughness"].get<float>()};
+    return shaded(layout, material, json.value("specular_factor", 1.f),
+                  json["perceptual_roughness"].get<float>());
 }
 
 Json material_json(const TextureParams& params, const Layout& layout, float specular_unit,

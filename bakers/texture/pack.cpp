@@ -11,6 +11,8 @@ namespace {
 
 using enum Held;
 constexpr float kUnrealF0 = .08f;
+constexpr float kUnityF0 = .04f;  // HDRP's DEFAULT_SPECULAR_VALUE, URP's kDieletricSpec: no map sets it
+constexpr float kDiffuseTolerance = 1e-6f;  // a float's rounding; that of files is kept as it is
 constexpr auto kSpecularGloss = pbr::DiffuseCoupling::fresnel;  // KHR_materials_pbrSpecularGlossiness
 
 PackedImage base_image(bool has_opacity) {
@@ -28,16 +30,16 @@ PackedImage diffuse_image(bool has_opacity) {
 /// A texel's numbers as its images hold them.
 struct Decoded {
     pbr::MetallicMaterial<float> material;
-    pbr::Reflected<float> specular_gloss{Colour(0), Colour(0)};
-    float perceptual_roughness = .5f;
+    float specular_factor = 1, perceptual_roughness = .5f;
 };
 
 void decode(Held held, float value, float specular_unit, Decoded& result) {
+    const auto number = static_cast<int>(held);
     switch (held) {
         case base_r:
         case base_g:
         case base_b:
-            result.material.base_color[static_cast<int>(held) - static_cast<int>(base_r)] = value;
+            result.material.base_color[number - static_cast<int>(base_r)] = value;
             break;
         case metallic:
             result.material.metallic = value;
@@ -57,26 +59,29 @@ void decode(Held held, float value, float specular_unit, Decoded& result) {
         case dielectric_r:
         case dielectric_g:
         case dielectric_b:
-            result.material.dielectric_f0[static_cast<int>(held) - static_cast<int>(dielectric_r)] =
-                value * specular_unit;
+            result.material.dielectric_f0[number - static_cast<int>(dielectric_r)] = value * specular_unit;
+            break;
+        case specular_factor:
+            result.specular_factor = value;
             break;
         case diffuse_r:
         case diffuse_g:
         case diffuse_b:
-            result.specular_gloss.diffuse[static_cast<int>(held) - static_cast<int>(diffuse_r)] = value;
+            result.material.base_color[number - static_cast<int>(diffuse_r)] = value;
             break;
         case f0_r:
         case f0_g:
         case f0_b:
-            result.specular_gloss.f0[static_cast<int>(held) - static_cast<int>(f0_r)] = value;
+            result.material.dielectric_f0[number - static_cast<int>(f0_r)] = value;
             break;
         default:
             break;
     }
 }
 
-Layout make_layout(const TextureParams& params, bool has_normal, bool has_opacity) {
+Layout make_layout(const TextureParams& params, bool has_normal, bool has_opacity, bool may_be_dim) {
     Layout layout;
+    layout.dielectric_f0 = static_cast<float>(params.dielectric_f0);
     layout.is_specular_gloss = params.packing == Packing::specular_gloss;
     layout.images.push_back(layout.is_specular_gloss ? diffuse_image(has_opacity) : base_image(has_opacity));
     const auto add = [&](std::string name, std::vector<Held> channels, bool is_colour = false) {
@@ -86,13 +91,16 @@ Layout make_layout(const TextureParams& params, bool has_normal, bool has_opacit
     switch (params.packing) {
         case Packing::gltf:
             layout.coupling = pbr::DiffuseCoupling::fresnel;
+            layout.grazing = GrazingRule::specular_factor;
             add("orm", {occlusion, perceptual_roughness, metallic});
             break;
         case Packing::unity:
+            layout.dielectric_f0 = kUnityF0;
             add("mask", {metallic, occlusion, one, smoothness});
             break;
         case Packing::unreal:
             layout.largest_f0 = kUnrealF0;
+            layout.grazing = GrazingRule::unreal;
             add("orm", {occlusion, perceptual_roughness, metallic});
             add("specular", {specular});
             break;
@@ -108,50 +116,116 @@ Layout make_layout(const TextureParams& params, bool has_normal, bool has_opacit
             if (!params.occlusion.empty()) add("occlusion", {occlusion});
             break;
         case Packing::specular_gloss:
+            layout.grazing = GrazingRule::one;
             add("specular_gloss", {f0_r, f0_g, f0_b, smoothness}, true);
             if (!params.occlusion.empty()) add("occlusion", {occlusion});
             break;
     }
     if (has_normal) add("normal", {normal_x, down ? normal_y_down : normal_y, normal_z});
     layout.has_residual = params.packing == Packing::gltf && params.residual;
-    if (layout.has_residual) add("specular", {dielectric_r, dielectric_g, dielectric_b}, true);
+    if (layout.has_residual) {
+        add("specular", {dielectric_r, dielectric_g, dielectric_b}, true);
+        if (may_be_dim) layout.images.back().channels.push_back(specular_factor);
+    }
     if (params.packing == Packing::gltf && !params.emissive.empty())
         add("emissive", {emissive_r, emissive_g, emissive_b}, true);
     return layout;
 }
 
+float grazing_reflectance(GrazingRule rule, float metallic, float factor, const Colour& f0) {
+    switch (rule) {
+        case GrazingRule::one:
+            return 1;
+        case GrazingRule::specular_factor:
+            return metallic + (1 - metallic) * factor;
+        case GrazingRule::frostbite:
+            return pbr::f90_from_f0(f0);
+        case GrazingRule::unreal:
+            return std::min(1.f, 50 * f0.y);
+    }
+    return 1;
+}
+
+/// The factor of a texel that reflects f90 at grazing incidence, of which metal takes its share. The f0 that
+/// goes with it, dielectric_f0 over the factor, is at most 1.
+float factor_for(float f90, float metallic, const Colour& dielectric_f0) {
+    if (f90 >= 1 || metallic >= 1) return 1;
+    const float rest = std::max(0.f, (f90 - metallic) / (1 - metallic));
+    return std::min(1.f, std::max(rest, pbr::max_channel(dielectric_f0)));
+}
+
+void round_to_codes(std::vector<float>& values, Transfer transfer) {
+    for (float& value : values) value = from_unorm8(unorm8_of(value, transfer), transfer);
+}
+
+/// Diffuse colours for the f0 that is stored.
+void make_specular_gloss(Texels& texels) {
+    const MapLevel& level = texels.level;
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::vector<float>& f0 = texels.dielectric_f0.channels[c];
+        std::copy_n(level.f0.from(texels.begin)[c], texels.count, f0.begin());
+        if (texels.is_coded) round_to_codes(f0, Transfer::srgb);
+    }
+    for (std::size_t i = 0; i < texels.count; ++i)
+        texels.base_color.set(
+            i, pbr::diffuse_colour<float>({level.diffuse[texels.begin + i], texels.dielectric_f0[i]},
+                                          kSpecularGloss));
+}
+
 }  // namespace
 
+bool Layout::has_specular_factor() const {
+    return has_residual && std::ranges::any_of(images, [](const PackedImage& image) {
+               return image.channels.back() == specular_factor;
+           });
+}
+
+void Layout::drop_specular_factor() {
+    for (PackedImage& image : images)
+        if (image.channels.back() == specular_factor) image.channels.pop_back();
+}
+
 Layout layout_of(const Sources& sources) {
-    return make_layout(sources.params(), sources.has_normal(), sources.has_opacity());
+    return make_layout(sources.params(), sources.has_normal(), sources.has_opacity(),
+                       sources.has_legacy_lobe());
 }
 
 std::vector<std::string> image_names(const TextureParams& params) {
     std::vector<std::string> names;
-    for (const PackedImage& image : make_layout(params, !params.normal.empty(), false).images)
+    for (const PackedImage& image : make_layout(params, !params.normal.empty(), false, false).images)
         names.push_back(image.name);
     return names;
 }
 
-void make_materials(const TextureParams& params, const Layout& layout, const pbr::ColourPlanes& tolerance,
-                    Texels& texels) {
+void make_materials(const Layout& layout, Texels& texels) {
+    const MapLevel& level = texels.level;
     texels.base_color.resize(texels.count);
     texels.dielectric_f0.resize(texels.count);
-    if (layout.is_specular_gloss) return;
-    const MapLevel& level = texels.level;
-    const auto f = static_cast<float>(params.dielectric_f0);
-    if (layout.has_residual)
-        return pbr::material_with_residual({level.diffuse.from(texels.begin), level.f0.from(texels.begin)},
-                                           level.metallic.data() + texels.begin, f, tolerance,
-                                           layout.coupling, texels.count,
-                                           {texels.base_color.from(0), texels.dielectric_f0.from(0)});
-    for (std::size_t i = 0; i < texels.count; ++i) {
+    if (layout.is_specular_gloss) return make_specular_gloss(texels);
+    const float* metallic = level.metallic.data() + texels.begin;
+    texels.metallic.assign(metallic, metallic + texels.count);
+    if (texels.is_coded) round_to_codes(texels.metallic, Transfer::linear);
+    if (layout.has_residual) {
+        const std::vector<float> exact(texels.count, kDiffuseTolerance);
+        pbr::material_with_residual({level.diffuse.from(texels.begin), level.f0.from(texels.begin)},
+                                    texels.metallic.data(), layout.dielectric_f0,
+                                    {exact.data(), exact.data(), exact.data()}, layout.coupling, texels.count,
+                                    {texels.base_color.from(0), texels.dielectric_f0.from(0)});
+    }
+    for (std::size_t i = 0; !layout.has_residual && i < texels.count; ++i) {
         const std::size_t at = texels.begin + i;
-        const auto material = pbr::material_without_residual<float>(
-            {level.diffuse[at], level.f0[at]}, level.metallic[at], f, layout.largest_f0, layout.coupling);
+        const auto material =
+            pbr::material_without_residual<float>({level.diffuse[at], level.f0[at]}, texels.metallic[i],
+                                                  layout.dielectric_f0, layout.largest_f0, layout.coupling);
         texels.base_color.set(i, material.base_color);
         texels.dielectric_f0.set(i, material.dielectric_f0);
     }
+    if (!layout.has_specular_factor()) return;
+    texels.specular_factor.resize(texels.count);
+    for (std::size_t i = 0; i < texels.count; ++i)
+        texels.specular_factor[i] =
+            factor_for(level.f90[texels.begin + i], texels.metallic[i], texels.dielectric_f0[i]);
+    if (texels.is_coded) round_to_codes(texels.specular_factor, Transfer::linear);
 }
 
 void pack(Held held, const Texels& texels, float* values) {
@@ -164,8 +238,9 @@ void pack(Held held, const Texels& texels, float* values) {
         if (map.empty()) return fill([&](std::size_t) { return absent; });
         fill([&](std::size_t i) { return value(map[i]); });
     };
-    const auto copy = [&](const std::vector<float>& plane, std::size_t from) {
-        std::copy_n(plane.begin() + static_cast<std::ptrdiff_t>(from), texels.count, values);
+    const auto copy = [&](const std::vector<float>& plane) { std::ranges::copy(plane, values); };
+    const auto plane_of = [&](const Planes& planes, Held red) -> const std::vector<float>& {
+        return planes.channels[static_cast<std::size_t>(first - static_cast<int>(red))];
     };
     const std::vector<float>& grey_f0 = texels.dielectric_f0.channels[0];
     const auto same = [](float value) { return value; };
@@ -176,14 +251,12 @@ void pack(Held held, const Texels& texels, float* values) {
             return fill([](std::size_t) { return 1.f; });
         case base_r:
         case base_g:
-        case base_b: {
-            return copy(
-                texels.base_color.channels[static_cast<std::size_t>(first - static_cast<int>(base_r))], 0);
-        }
+        case base_b:
+            return copy(plane_of(texels.base_color, base_r));
         case opacity:
             return fill_from(level.opacity, 1, same);
         case metallic:
-            return copy(level.metallic, texels.begin);
+            return copy(texels.metallic);
         case perceptual_roughness:
             return fill_from(level.perceptual_roughness, 1, same);
         case smoothness:
@@ -206,11 +279,13 @@ void pack(Held held, const Texels& texels, float* values) {
             return fill_from(level.normal, 1, [](const Colour& n) { return n.z * .5f + .5f; });
         case dielectric_r:
         case dielectric_g:
-        case dielectric_b: {
-            return copy(texels.dielectric_f0
-                            .channels[static_cast<std::size_t>(first - static_cast<int>(dielectric_r))],
-                        0);
-        }
+        case dielectric_b:
+            copy(plane_of(texels.dielectric_f0, dielectric_r));
+            for (std::size_t i = 0; i < texels.specular_factor.size(); ++i)
+                if (texels.specular_factor[i] > 0) values[i] /= texels.specular_factor[i];
+            return;
+        case specular_factor:
+            return copy(texels.specular_factor);
         case emissive_r:
         case emissive_g:
         case emissive_b: {
@@ -219,30 +294,36 @@ void pack(Held held, const Texels& texels, float* values) {
         }
         case diffuse_r:
         case diffuse_g:
-        case diffuse_b: {
-            const int c = first - static_cast<int>(diffuse_r);
-            return fill([&level, c](std::size_t i) {
-                return pbr::diffuse_colour<float>({level.diffuse[i], level.f0[i]}, kSpecularGloss)[c];
-            });
-        }
+        case diffuse_b:
+            return copy(plane_of(texels.base_color, diffuse_r));
         case f0_r:
         case f0_g:
-        case f0_b: {
-            const int c = first - static_cast<int>(f0_r);
-            return fill_from(level.f0, 0, [c](const Colour& f0) { return f0[c]; });
-        }
+        case f0_b:
+            return copy(plane_of(texels.dielectric_f0, f0_r));
     }
 }
 
-pbr::Reflected<float> packed_reflection(const Layout& layout, const MapLevel& level, std::size_t texel,
-                                        const pbr::MetallicMaterial<float>& material) {
-    return layout.is_specular_gloss ? pbr::Reflected<float>{level.diffuse[texel], level.f0[texel]}
-                                    : pbr::reflected_from_metallic(material, layout.coupling);
+Unpacked shaded(const Layout& layout, const pbr::MetallicMaterial<float>& material, float specular_factor,
+                float perceptual_roughness) {
+    const pbr::Reflected<float> reflected =
+        layout.is_specular_gloss
+            ? pbr::reflected_from_specular(material.base_color, material.dielectric_f0, kSpecularGloss)
+            : pbr::reflected_from_metallic(material, layout.coupling);
+    return {material, specular_factor, perceptual_roughness, reflected,
+            grazing_reflectance(layout.grazing, material.metallic, specular_factor, reflected.f0)};
 }
 
-Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x,
-                int y, float specular_unit, double scale) {
-    Decoded found{{Colour(0), 0, Colour(static_cast<float>(params.dielectric_f0))}};
+Unpacked packed(const Layout& layout, const Texels& texels, std::size_t i) {
+    return shaded(
+        layout,
+        {texels.base_color[i], texels.metallic.empty() ? 0 : texels.metallic[i], texels.dielectric_f0[i]},
+        texels.specular_factor.empty() ? 1 : texels.specular_factor[i],
+        texels.level.perceptual_roughness[texels.begin + i]);
+}
+
+Unpacked unpack(const Layout& layout, const std::vector<Image>& images, int x, int y, float specular_unit,
+                double scale) {
+    Decoded found{{Colour(0), 0, Colour(layout.dielectric_f0)}};
     for (std::size_t i = 0; i < layout.images.size(); ++i) {
         const Image& image = images[i];
         const Level& level = image.levels.front();
@@ -255,11 +336,8 @@ Unpacked unpack(const TextureParams& params, const Layout& layout, const std::ve
             decode(layout.images[i].channels[c], stored, specular_unit, found);
         }
     }
-    const pbr::Reflected<float> reflected =
-        layout.is_specular_gloss ? pbr::reflected_from_specular(found.specular_gloss.diffuse,
-                                                                found.specular_gloss.f0, kSpecularGloss)
-                                 : pbr::reflected_from_metallic(found.material, layout.coupling);
-    return {found.material, reflected, found.perceptual_roughness};
+    found.material.dielectric_f0 *= found.specular_factor;
+    return shaded(layout, found.material, found.specular_factor, found.perceptual_roughness);
 }
 
 }  // namespace pbrbake::texture

@@ -23,9 +23,10 @@ enum class Held {
     normal_y,       ///< up
     normal_y_down,  ///< DirectX
     normal_z,
-    dielectric_r,  ///< dielectric f0 over the set's unit, in the end
+    dielectric_r,  ///< dielectric f0 over specular_factor and the set's unit, in the end
     dielectric_g,
     dielectric_b,
+    specular_factor,  ///< glTF's: what the dielectric reflects at grazing incidence
     emissive_r,
     emissive_g,
     emissive_b,
@@ -43,13 +44,27 @@ struct PackedImage {
     bool is_colour = false;  ///< stored as sRGB where codes are 8 bits
 };
 
+/// What a target's shader reflects at grazing incidence.
+enum class GrazingRule {
+    one,              ///< KHR_materials_pbrSpecularGlossiness
+    specular_factor,  ///< glTF 2.0: 1 of metals, and of dielectrics KHR_materials_specular's factor
+    frostbite,        ///< f90_from_f0 of what metal and dielectric reflect; Unity's HDRP too
+    unreal,           ///< the same of green alone: min(1, 50 f0.g)
+};
+
 /// A target's images, the first the base colour's.
 struct Layout {
     bool is_specular_gloss = false;  ///< holds no metallic material
     std::vector<PackedImage> images;
     pbr::DiffuseCoupling coupling = pbr::DiffuseCoupling::none;  ///< of the target's shader
+    GrazingRule grazing = GrazingRule::frostbite;                ///< of the target's shader
     bool has_residual = false;                                   ///< a dielectric f0 of any colour
-    float largest_f0 = 0;  ///< of its grey dielectric f0; 0: fixed at the job's dielectric_f0
+    float dielectric_f0 = 0;  ///< the usual one, and what the target has where no image holds it
+    float largest_f0 = 0;     ///< of its grey dielectric f0; 0: fixed at dielectric_f0
+    /// Whether a residual says what it reflects at grazing incidence, as dim lobes need.
+    bool has_specular_factor() const;
+    /// For a set that has no dim lobes.
+    void drop_specular_factor();
 };
 
 /// The layout of a set.
@@ -61,33 +76,33 @@ std::vector<std::string> image_names(const TextureParams& params);
 struct Texels {
     const MapLevel& level;
     std::size_t begin, count;
-    Planes base_color, dielectric_f0;  ///< of `begin` first; metallic is the level's
-
-    pbr::MetallicMaterial<float> material(std::size_t i) const {
-        return {base_color[i], level.metallic[begin + i], dielectric_f0[i]};
-    }
+    /// Whether 8-bit codes are what is stored: then metallic, specular_factor and the f0 of specular-gloss
+    /// are numbers that codes stand for, and what else there is makes up for their rounding.
+    bool is_coded;
+    Planes base_color, dielectric_f0{};  ///< of `begin` first; of specular-gloss, the diffuse colour and f0
+    std::vector<float> metallic{}, specular_factor{};  ///< the latter empty where it is 1
 };
 
-/// Makes the materials, with diffuse light moved by up to its tolerance; nothing in particular in a
-/// specular-gloss layout, which holds the level as it is.
-void make_materials(const TextureParams& params, const Layout& layout, const pbr::ColourPlanes& tolerance,
-                    Texels& texels);
+void make_materials(const Layout& layout, Texels& texels);
 
 /// What a channel holds of texels: `count` of `values`. dielectric_f0 is packed as it is: its unit is known
 /// at the end.
 void pack(Held held, const Texels& texels, float* values);
 
-/// What a texel of a level reflects once it is packed, before codes.
-pbr::Reflected<float> packed_reflection(const Layout& layout, const MapLevel& level, std::size_t texel,
-                                        const pbr::MetallicMaterial<float>& material);
-
-/// What a texel of stored images holds and reflects.
+/// What a packed texel holds, and what the target's shader makes of it.
 struct Unpacked {
-    pbr::MetallicMaterial<float> material;  ///< nothing in particular of a specular-gloss layout
+    pbr::MetallicMaterial<float> material;  ///< of a specular-gloss layout, its diffuse colour and f0
+    float specular_factor, perceptual_roughness;
     pbr::Reflected<float> reflected;
-    float perceptual_roughness;
+    float f90;
 };
-Unpacked unpack(const TextureParams& params, const Layout& layout, const std::vector<Image>& images, int x,
-                int y, float specular_unit, double scale);
+Unpacked shaded(const Layout& layout, const pbr::MetallicMaterial<float>& material, float specular_factor,
+                float perceptual_roughness);
+
+/// Of a texel that is packed, before codes of colours.
+Unpacked packed(const Layout& layout, const Texels& texels, std::size_t i);
+/// Of a texel of stored images.
+Unpacked unpack(const Layout& layout, const std::vector<Image>& images, int x, int y, float specular_unit,
+                double scale);
 
 }  // namespace pbrbake::texture

@@ -26,6 +26,11 @@ std::uint16_t root_of(float value) {
     return static_cast<std::uint16_t>(std::sqrt(std::clamp(value, 0.f, 1.f)) * kRootOfOne + .5f);
 }
 
+/// By how much a residual's factor grows where its colour's largest channel is beyond 1.
+float growth_of(float factor, float largest) {
+    return factor > 0 && factor < 1 && largest > 1 ? std::min(largest, 1 / factor) : 1;
+}
+
 float squared(std::size_t root) {
     const float value = static_cast<float>(root) / kRootOfOne;
     return value * value;
@@ -51,9 +56,10 @@ Store::Store(const TextureParams& params, const Layout& layout, int width, int h
             Level& added = images_[i].levels.back();
             if (!is_coded)
                 added.texels.resize(numbers);
-            else if (i == residual_)
-                roots_.emplace_back(numbers);
-            else
+            else if (i == residual_) {
+                roots_.emplace_back(3 * texels);
+                factors_.emplace_back(numbers - 3 * texels);
+            } else
                 added.codes.resize(numbers);
         }
         if (std::max(width, height) == 1) break;
@@ -66,15 +72,16 @@ void Store::put(std::size_t image, std::size_t channel, std::size_t level, std::
                 std::span<const float> values) {
     const std::size_t step = images_[image].channels.size(), first = to * step + channel;
     Level& out = images_[image].levels[level];
-    const auto put_each = [&](auto& numbers, const auto& stored) {
-        for (std::size_t i = 0; i < values.size(); ++i) numbers[first + i * step] = stored(i);
-    };
+    const auto code = [&](std::size_t i) { return code_of(image, first + i * step, values[i]); };
     if (!is_coded_)
-        put_each(out.texels, [&](std::size_t i) { return values[i]; });
-    else if (image == residual_)
-        put_each(roots_[level], [&](std::size_t i) { return root_of(values[i]); });
+        for (std::size_t i = 0; i < values.size(); ++i) out.texels[first + i * step] = values[i];
+    else if (image != residual_)
+        for (std::size_t i = 0; i < values.size(); ++i) out.codes[first + i * step] = code(i);
+    else if (channel == 3)
+        for (std::size_t i = 0; i < values.size(); ++i) factors_[level][to + i] = code(i);
     else
-        put_each(out.codes, [&](std::size_t i) { return code_of(image, first + i * step, values[i]); });
+        for (std::size_t i = 0; i < values.size(); ++i)
+            roots_[level][(to + i) * 3 + channel] = root_of(values[i]);
 }
 
 float Store::residual_unit(float largest) const {
@@ -85,7 +92,9 @@ float Store::residual_unit(float largest) const {
         for (std::size_t i = 0; i < roots_[0].size(); i += kStep) ++histogram[roots_[0][i]];
     } else {
         const std::vector<float>& values = images_[residual_].levels[0].texels;
-        for (std::size_t i = 0; i < values.size(); i += kStep) ++histogram[root_of(values[i])];
+        const std::size_t step = images_[residual_].channels.size();
+        for (std::size_t i = 0; i < values.size() / step * 3; i += kStep)
+            ++histogram[root_of(values[i / 3 * step + i % 3])];
     }
     const auto commonest = std::ranges::max_element(histogram) - histogram.begin();
     const float value = squared(static_cast<std::size_t>(commonest));
@@ -96,23 +105,60 @@ float Store::residual_unit(float largest) const {
     return largest;
 }
 
-void Store::divide_residual(float unit) {
-    std::vector<Level>& levels = images_[residual_].levels;
-    if (!is_coded_) {
-        for (Level& level : levels)
-            for (float& value : level.texels) value = std::min(1.f, value / unit);
-        return;
+void Store::divide_residual(float unit, bool keeps_factor) {
+    Image& image = images_[residual_];
+    const std::size_t before = image.channels.size(), after = keeps_factor ? before : 3;
+    image.channels.resize(after);
+    for (std::size_t l = 0; l < image.levels.size(); ++l)
+        is_coded_ ? divide_codes(unit, l, after) : divide_floats(unit, l, before, after);
+}
+
+/// In place, from `before` channels to `after`.
+void Store::divide_floats(float unit, std::size_t l, std::size_t before, std::size_t after) {
+    std::vector<float>& numbers = images_[residual_].levels[l].texels;
+    const std::size_t texels = numbers.size() / before;
+    for (std::size_t i = 0; i < texels; ++i) {
+        Colour colour = Colour(numbers[i * before], numbers[i * before + 1], numbers[i * before + 2]) / unit;
+        float factor = before > 3 ? numbers[i * before + 3] : 1;
+        const float growth = growth_of(factor, pbr::max_channel(colour));
+        colour = glm::min(colour / growth, Colour(1));
+        for (std::size_t c = 0; c < 3; ++c) numbers[i * after + c] = colour[static_cast<int>(c)];
+        if (after > 3) numbers[i * after + 3] = factor * growth;
     }
+    numbers.resize(texels * after);
+}
+
+void Store::divide_codes(float unit, std::size_t l, std::size_t channels) {
+    const std::vector<std::uint16_t> roots = std::move(roots_[l]);
+    const std::vector<std::uint8_t> factors = std::move(factors_[l]);
     std::vector<float> values(1 << 16);
-    for (std::size_t root = 0; root < values.size(); ++root)
-        values[root] = std::min(1.f, squared(root) / unit);
-    std::vector<std::uint8_t> codes;
-    for (const float value : values) codes.push_back(unorm8_of(value, Transfer::srgb));
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-        const std::vector<std::uint16_t> roots = std::move(roots_[l]);
-        levels[l].codes.resize(roots.size());
-        for (std::size_t i = 0; i < roots.size(); ++i)
-            levels[l].codes[i] = params_.dither ? code_of(residual_, i, values[roots[i]]) : codes[roots[i]];
+    std::vector<std::uint8_t> codes(1 << 16);
+    for (std::size_t root = 0; root < values.size(); ++root) {
+        values[root] = squared(root) / unit;
+        codes[root] = unorm8_of(values[root], Transfer::srgb);
+    }
+    std::vector<std::uint8_t>& numbers = images_[residual_].levels[l].codes;
+    numbers.resize(roots.size() / 3 * channels);
+    for (std::size_t i = 0; i < roots.size() / 3; ++i) {
+        const std::uint16_t* texel = roots.data() + 3 * i;
+        std::uint8_t factor_code = factors.empty() ? 255 : factors[i];
+        float shrunk = 1;  // of colours, as the factor grows
+        if (factor_code < 255) {
+            const float factor = from_unorm8(factor_code, Transfer::linear),
+                        grown = factor * growth_of(factor, values[*std::max_element(texel, texel + 3)]);
+            if (grown > factor) {
+                factor_code = static_cast<std::uint8_t>(std::ceil(grown * 255));
+                shrunk = factor / from_unorm8(factor_code, Transfer::linear);
+            }
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t number = i * channels + c;
+            if (params_.dither || shrunk < 1)
+                numbers[number] = code_of(residual_, number, std::min(1.f, values[texel[c]] * shrunk));
+            else
+                numbers[number] = codes[texel[c]];
+        }
+        if (channels > 3) numbers[i * channels + 3] = factor_code;
     }
 }
 

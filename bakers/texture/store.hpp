@@ -22,11 +22,14 @@ class Store {
     /// that most texels have is an 8-bit code exactly then. What many texels share would else be off by the
     /// same part of a code in all of them.
     float residual_unit(float largest) const;
-    /// Divides the residual by the set's unit, which is known last; ends at 1.
-    void divide_residual(float unit);
+    /// Divides the residual by the set's unit, which is known last; ends at 1. Its fourth channel, if there
+    /// is one, is kept or dropped, and grows where colours would end otherwise: what they multiply to stays.
+    void divide_residual(float unit, bool keeps_factor);
     std::vector<Image> take() { return std::move(images_); }
 
   private:
+    void divide_floats(float unit, std::size_t l, std::size_t before, std::size_t after);
+    void divide_codes(float unit, std::size_t l, std::size_t channels);
     std::uint8_t code_of(std::size_t image, std::size_t number, float value) const;
 
     const TextureParams& params_;
@@ -36,6 +39,7 @@ class Store {
     /// Of a residual that will be codes, each level until its unit is known: square roots, 65535 is 1. An
     /// sRGB code is some hundred of these wide.
     std::vector<std::vector<std::uint16_t>> roots_;
+    std::vector<std::vector<std::uint8_t>> factors_;  ///< each level's codes of its fourth channel
 };
 
 }  // namespace pbrbake::texture

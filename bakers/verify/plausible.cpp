@@ -127,10 +127,11 @@ class DielectricF0 {
                 channel_ = set.channel(kNames[i]);
             }
         if (held_ == 0 && channel_.image) colour_ = luminance(set, "dielectric_f0");
+        if (set.has("specular_factor")) factor_ = set.channel("specular_factor");
     }
     bool is_held() const { return channel_.image != nullptr; }
     double at(int x, int y) const {
-        if (held_ == 0) return colour_.at(x, y) * unit_;
+        if (held_ == 0) return colour_.at(x, y) * unit_ * (factor_.image ? factor_.at(x, y) : 1);
         const double value = channel_.at(x, y);
         return held_ == 1 ? .16 * value * value : .08 * value;
     }
@@ -138,7 +139,7 @@ class DielectricF0 {
   private:
     static constexpr std::array<const char*, 3> kNames{"dielectric_f0.r", "reflectance", "specular"};
     std::size_t held_ = 0;
-    Channel channel_;
+    Channel channel_, factor_;
     Luminance colour_;
     double unit_;
 };

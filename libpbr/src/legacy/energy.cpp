@@ -48,7 +48,10 @@ MeanAlbedo mean_albedo_ggx(double perceptual_roughness) {
 }
 
 double mean_specular_albedo(double f0, const MeanAlbedo& lobe, Scattering scattering) {
-    const double f90 = std::min(1., kF90Slope * f0);
+    return mean_specular_albedo(f0, std::min(1., kF90Slope * f0), lobe, scattering);
+}
+
+double mean_specular_albedo(double f0, double f90, const MeanAlbedo& lobe, Scattering scattering) {
     const double single = f0 * (lobe.E - lobe.Fc) + f90 * lobe.Fc;
     if (scattering == Scattering::single) return single;
     const double F_avg = f0 + (f90 - f0) * kMeanWeight, lost = 1 - lobe.E;

@@ -26,6 +26,10 @@ enum class Scattering { single, multiple };
 /// error below 1e-5.
 double mean_specular_albedo(double f0, const MeanAlbedo& lobe, Scattering scattering);
 
+/// The same of a lobe that reflects f90 in [0, 1] at grazing incidence: at f0 = 0 and f90 = 1 still Fc, and
+/// what bounces.
+double mean_specular_albedo(double f0, double f90, const MeanAlbedo& lobe, Scattering scattering);
+
 /// An f0 that was solved for.
 struct SolvedF0 {
     double f0;
