@@ -16,7 +16,7 @@ BeforeAndAfter::BeforeAndAfter(const TextureParams& params, const Inputs& inputs
 
 Appearance BeforeAndAfter::as_read(int x, int y) const {
     const LegacyTexel texel = sources_.texel(x, y);
-    Appearance seen{texel.reflected.diffuse, texel.reflected.f0, texel.perceptual_roughness, {}};
+    Appearance seen = of_source(texel.reflected, texel.perceptual_roughness);
     if (!sources_.has_legacy_lobe()) return seen;
     const auto lobe = params().model == Model::phong ? pbr::PhongLobe::mirror : pbr::PhongLobe::blinn;
     seen.phong = PhongTerm{lobe, static_cast<double>(sources_.lobe_exponent(x, y)), texel.specular_albedo};
@@ -26,13 +26,17 @@ Appearance BeforeAndAfter::as_read(int x, int y) const {
 Appearance BeforeAndAfter::calibrated(int x, int y) const {
     if (!is_calibrated()) return as_read(x, y);
     const LegacyTexel texel = sources_.texel(x, y);
-    const pbr::Reflected<float> reflected = calibration_(texel.reflected);
-    return {reflected.diffuse, reflected.f0, texel.perceptual_roughness, {}};
+    return of_source(calibration_(texel.reflected), texel.perceptual_roughness);
+}
+
+Appearance BeforeAndAfter::of_source(const pbr::Reflected<float>& reflected,
+                                     float perceptual_roughness) const {
+    return {reflected.diffuse, reflected.f0, source_f90(sources_, reflected.f0), perceptual_roughness, {}};
 }
 
 Appearance BeforeAndAfter::stored(int x, int y) const {
     const Unpacked texel = unpacked(x, y);
-    return {texel.reflected.diffuse, texel.reflected.f0, texel.perceptual_roughness, {}};
+    return {texel.reflected.diffuse, texel.reflected.f0, texel.f90, texel.perceptual_roughness, {}};
 }
 
 Change BeforeAndAfter::change(int x, int y) const {
@@ -41,7 +45,7 @@ Change BeforeAndAfter::change(int x, int y) const {
     const Colour before = source_albedo(sources_, calibration_, legacy).total();
     const Unpacked texel = unpacked(x, y);
     const Colour after =
-        pbr_albedo(texel.reflected, texel.perceptual_roughness, scattering_of(params())).total();
+        pbr_albedo(texel.reflected, texel.f90, texel.perceptual_roughness, scattering_of(params())).total();
     const auto energy = static_cast<double>(pbr::mean_channel(before));
     const double gained = static_cast<double>(pbr::mean_channel(after)) - energy;
     return {delta_e(before, after), energy > 0 ? gained / energy : 0};
@@ -49,8 +53,7 @@ Change BeforeAndAfter::change(int x, int y) const {
 
 Unpacked BeforeAndAfter::unpacked(int x, int y) const {
     if (images_.empty()) return factors_from(set_.at("factors"), layout_);
-    const float unit = set_.value("dielectric_f0_unit", 1.f);
-    return unpack(params(), layout_, images_, x, y, unit, scale_);
+    return unpack(layout_, images_, x, y, set_.value("dielectric_f0_unit", 1.f), scale_);
 }
 
 }  // namespace pbrbake::texture

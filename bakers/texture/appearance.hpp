@@ -20,6 +20,7 @@ struct PhongTerm {
 struct Appearance {
     Colour diffuse;
     Colour f0;                       ///< of GGX
+    float f90;                       ///< of GGX, in every channel
     float perceptual_roughness;      ///< of GGX
     std::optional<PhongTerm> phong;  ///< in place of GGX
 };
@@ -51,6 +52,7 @@ class BeforeAndAfter {
     Change change(int x, int y) const;
 
   private:
+    Appearance of_source(const pbr::Reflected<float>& reflected, float perceptual_roughness) const;
     Unpacked unpacked(int x, int y) const;
 
     Sources sources_;

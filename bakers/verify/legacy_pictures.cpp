@@ -150,7 +150,7 @@ Lobe ggx(const texture::Appearance& texel, bool multiscatter, double NoV) {
                  pbr::alpha_from_perceptual_roughness(static_cast<double>(texel.perceptual_roughness)));
     const double perceptual_roughness = pbr::perceptual_roughness_from_alpha(alpha);
     const glm::dvec3 f0(texel.f0);
-    const pbr::Surface<double> surface{glm::dvec3(texel.diffuse), f0, pbr::f90_from_f0(f0),
+    const pbr::Surface<double> surface{glm::dvec3(texel.diffuse), f0, static_cast<double>(texel.f90),
                                        perceptual_roughness, alpha};
     const glm::dvec3 diffuse = surface.diffuse_albedo / std::numbers::pi;
     const AlbedoOfViews& E = albedo_at(perceptual_roughness);
