@@ -21,7 +21,7 @@ const std::vector<Option>& run_options() {
         {"threads", "N", "Worker threads; the bytes are the same at any number. [default: all processors]"},
         {"dry-run", "", "Shows what would be read and written, and stops.", true},
         {"report", "FILE", "Writes times, memory, evaluations and warnings as JSON."},
-        {"html", "FILE", "Writes a page of figures, curves, times and warnings."},
+        {"html", "FILE", "Writes a page of figures, pictures, curves, times and warnings."},
         {"depfile", "FILE", "Writes a dependency file in gcc's format."},
         {"json", "", "Prints the report on stdout.", true},
         {"quiet", "", "Shows errors alone.", true},

@@ -91,6 +91,24 @@ void print(const std::string& file, const verify::Inspection& inspection) {
     print_certificate(inspection.record);
 }
 
+/// The pictures that the flags add to FILE, if any.
+verify::SetFiles set_of(const std::string& file, const Given& given) {
+    verify::SetFiles set;
+    std::string others;
+    for (const auto& [flag, map] : {std::pair{"metallic-roughness", &set.metallic_roughness},
+                                    {"metallic", &set.metallic},
+                                    {"specular", &set.specular}})
+        if (const auto path = given.find(flag)) {
+            if (set.is_set())
+                throw Error(ExitCode::usage, std::string("--") + flag,
+                            "found beside --" + others + "; allowed: one of the two");
+            *map = *path;
+            others = flag;
+        }
+    (set.is_specular_gloss() ? set.diffuse : set.base_color) = file;
+    return set;
+}
+
 }  // namespace
 
 ExitCode inspect_command(const Arguments& arguments) {
@@ -100,14 +118,20 @@ ExitCode inspect_command(const Arguments& arguments) {
         "(the integral over the sphere), how much of a texture set is outside of what surfaces reflect, and "
         "the certificate in the record beside it. Values are divided "
         "by the file's scale.");
-    options.add_positional({{"file", "FILE", "An EXR, KTX2, DDS, PNG or HDR file."}});
+    options.add_positional({{"file", "FILE", "An EXR, KTX2, DDS, PNG or HDR file; or a JPEG, TGA or TIFF."}});
+    options.add({"a set without a record",
+                 {{"metallic-roughness", "MAP",
+                   "FILE is the base colour of this mask, metallic in blue as glTF has it."},
+                  {"metallic", "MAP", "FILE is the base colour of this mask, metallic in red."},
+                  {"specular", "MAP", "FILE is the diffuse colour beside this f0, of specular-gloss."}}});
+    options.set_example("pbrbake inspect crate_base.png --metallic-roughness crate_orm.png");
     options.add({"output", {{"json", "", "Prints JSON.", true}}});
     const auto given = options.parse(arguments);
     if (!given) return ExitCode::done;
     const auto file = given->find("file");
     if (!file) throw Error(ExitCode::usage, "FILE", "missing; usage: pbrbake inspect [OPTIONS] FILE");
 
-    const verify::Inspection inspection = verify::inspect(*file);
+    const verify::Inspection inspection = verify::inspect(*file, set_of(*file, *given));
     if (given->is_on("json"))
         std::printf("%s", job::to_text(verify::inspection_json(inspection)).c_str());
     else

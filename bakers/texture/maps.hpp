@@ -122,6 +122,8 @@ class Sources {
     float occlusion(int x, int y) const;
     /// The exponent that gloss stands for, where it holds one; else < 0. Needs has_gloss().
     float exponent_at(int x, int y) const;
+    /// The exponent of the lobe as it is read, whatever gloss holds, or the one that stands for a roughness.
+    float lobe_exponent(int x, int y) const;
     bool has_normal() const { return bool(normal_); }
     bool has_occlusion() const { return bool(occlusion_); }
     bool has_opacity() const { return bool(opacity_); }

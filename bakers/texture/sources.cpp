@@ -148,6 +148,13 @@ float Sources::exponent_at(int x, int y) const {
     return exponent(gloss * static_cast<float>(rules_.params.gloss_factor));
 }
 
+float Sources::lobe_exponent(int x, int y) const {
+    float gloss = 1, n = 0;
+    if (gloss_) gloss_.read(0, x, y, {&gloss, 1});
+    perceptual_roughness(gloss * static_cast<float>(rules_.params.gloss_factor), n);
+    return n;
+}
+
 /// Of a gloss value times its factor; `n` becomes the exponent where it has one, or a legacy lobe needs it.
 float Sources::perceptual_roughness(float gloss, float& n) const {
     const bool is_phong = rules_.params.model == Model::phong;

@@ -1,8 +1,10 @@
 #include "bakers/verify/inspect.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "bakers/formats.hpp"
 #include "bakers/verify/metrics.hpp"
@@ -41,10 +43,32 @@ LevelSummary summarise(const Image& image, int index, double scale) {
     return summary;
 }
 
+/// A product, or a picture that isn't one, by its extension.
+ProductFile read_picture(const fs::path& file) {
+    static const std::map<std::string, const char*> kSources{
+        {".jpg", "jpeg"}, {".jpeg", "jpeg"}, {".tga", "tga"}, {".tif", "tiff"}, {".tiff", "tiff"}};
+    std::string extension = file.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".gltf" || extension == ".glb")
+        throw Error(ExitCode::unreadable_input, file.string(),
+                    "is a document; inspect a picture of its base colour, of a material that isn't recorded "
+                    "with --metallic-roughness");
+    const auto found = kSources.find(extension);
+    if (found == kSources.end()) return read_product_file(file);
+    SourceImage source = io::read_source({.path = file, .with_alpha = true});
+    ProductFile picture;
+    picture.format = found->second;
+    picture.info.pixel = source.bits == 8    ? PixelType::unorm8
+                         : source.bits == 16 ? PixelType::unorm16
+                                             : PixelType::float32;
+    picture.image = std::move(source.image);
+    return picture;
+}
+
 }  // namespace
 
-Inspection inspect(const fs::path& file) {
-    const ProductFile product = read_product_file(file);
+Inspection inspect(const fs::path& file, const SetFiles& set) {
+    const ProductFile product = read_picture(file);
     Inspection inspection{product.format,
                           std::string(pixel_name(product.info.pixel)),
                           product.image.faces,
@@ -53,7 +77,7 @@ Inspection inspect(const fs::path& file) {
                           product.scale,
                           product.units,
                           {},
-                          check_ranges(file, product.record),
+                          set.is_set() ? check_ranges(set) : check_ranges(file, product.record),
                           product.record};
     for (int level = 0; level < static_cast<int>(product.image.levels.size()); ++level)
         inspection.levels.push_back(summarise(product.image, level, inspection.scale));

@@ -38,8 +38,9 @@ struct Inspection {
     Json record;  ///< the product's entry in X.ext.json or manifest.json beside it; null if neither lists it
 };
 
-/// Reads a product and its record. Throws Error(unreadable_input).
-Inspection inspect(const std::filesystem::path& file);
+/// Reads a product and its record, or a JPEG, TGA or TIFF as a bake reads it. `set` says what belongs to the
+/// picture where that isn't recorded, or isn't to count. Throws Error(unreadable_input).
+Inspection inspect(const std::filesystem::path& file, const SetFiles& set = {});
 
 /// The same as a document of schemas/inspection.schema.json.
 Json inspection_json(const Inspection& inspection);

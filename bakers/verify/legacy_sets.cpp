@@ -45,12 +45,6 @@ LegacyTexel painted_steel(double u, double v) {
             glm::mix(0.72 - 0.15 * scratch, 0.25 + 0.1 * grain, rust)};
 }
 
-glm::dvec3 through_srgb_codes(const glm::dvec3& linear) {
-    glm::dvec3 encoded;
-    for (int c = 0; c < 3; ++c) encoded[c] = srgb_byte(linear[c]) / 255.0;
-    return linear_of_display(encoded);
-}
-
 /// An uncompressed TGA of 24 bits, row 0 at the top.
 std::string tga(int size, const std::function<std::array<std::uint8_t, 3>(int x, int y)>& rgb) {
     const auto low = static_cast<char>(size & 255), high = static_cast<char>(size >> 8);
@@ -86,14 +80,6 @@ const std::array<LegacySet, 2>& legacy_sets() {
          {"steel", "Rusting steel, specular and gloss",
           "A metal that the maps don't name: the metal mask has to be solved for.", false, painted_steel}}};
     return sets;
-}
-
-double legacy_exponent(double gloss) { return std::exp2(kExponentBits * gloss); }
-
-LegacyTexel legacy_texel(const LegacySet& set, double u, double v) {
-    const LegacyTexel painted = set.painted(u, v);
-    return {through_srgb_codes(painted.diffuse), through_srgb_codes(painted.specular),
-            std::round(255 * painted.gloss) / 255};
 }
 
 Json write_legacy_maps(const LegacySet& set, int size, const std::filesystem::path& folder) {

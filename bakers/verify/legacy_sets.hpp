@@ -26,14 +26,8 @@ struct LegacySet {
 /// Plaster under a Blinn-Phong lobe, and rusting steel in specular and gloss.
 const std::array<LegacySet, 2>& legacy_sets();
 
-/// The exponent that a Blinn-Phong set's gloss stands for: 2^(10 gloss).
-double legacy_exponent(double gloss);
-
-/// The texel of a map as its 8-bit codes decode: diffuse and specular by sRGB's curve.
-LegacyTexel legacy_texel(const LegacySet& set, double u, double v);
-
 /// Writes NAME_d.tga, _s and _g of size x size texels, means of what was painted, and returns a texture
-/// bake's properties that name them.
+/// bake's properties that name them: a Blinn-Phong set's gloss stands for an exponent of 2^(10 gloss).
 Json write_legacy_maps(const LegacySet& set, int size, const std::filesystem::path& folder);
 
 }  // namespace pbrbake::verify

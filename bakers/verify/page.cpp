@@ -50,6 +50,11 @@ td small{color:var(--soft);font-size:12px}
 .chart img{width:100%;image-rendering:pixelated}
 .chart .y{writing-mode:vertical-rl;display:flex;justify-content:space-between;line-height:18px}
 .chart .x{grid-column:2;display:flex;justify-content:space-between}
+.proof{display:flex;flex-wrap:wrap;gap:16px 20px;margin:12px 0}
+.proof figure{margin:0;width:144px}
+.proof figcaption{font-size:13px;line-height:1.35}
+.proof img{image-rendering:pixelated;border-radius:3px}
+.proof .ball img{border-radius:50%}
 .scale{height:10px;border-radius:5px;margin-top:8px}
 .ends{display:flex;justify-content:space-between;font-size:12px;color:var(--soft);font-variant-numeric:tabular-nums}
 pre{background:var(--panel);border:1px solid var(--line);border-radius:8px;padding:12px 14px;overflow-x:auto;font-size:13px;line-height:1.5}

@@ -9,6 +9,12 @@ namespace pbrbake::verify {
 
 std::string escaped_text(const Json& value) { return escaped(value.get<std::string>()); }
 
+std::string warnings_html(const run::BakeReport& report) {
+    std::string list;
+    for (const std::string& warning : report.warnings) list += "<li>" + escaped(warning) + "</li>";
+    return list.empty() ? "" : "<ul>" + list + "</ul>\n";
+}
+
 run::Seconds seconds_of(const run::BakeReport& report, run::Stage stage) {
     const auto found = report.seconds.find(stage);
     return found == report.seconds.end() ? run::Seconds{} : found->second;

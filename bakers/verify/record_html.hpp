@@ -11,6 +11,9 @@ namespace pbrbake::verify {
 /// A JSON string as it may stand in an element.
 std::string escaped_text(const Json& value);
 
+/// What was tolerated or is doubtful, as a list; "" for nothing.
+std::string warnings_html(const run::BakeReport& report);
+
 /// Of a stage that a bake came to, else 0.
 run::Seconds seconds_of(const run::BakeReport& report, run::Stage stage);
 

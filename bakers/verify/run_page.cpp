@@ -3,6 +3,7 @@
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/record_html.hpp"
 #include "bakers/verify/study_plot.hpp"
+#include "bakers/verify/texture_proof.hpp"
 
 namespace pbrbake::verify {
 namespace {
@@ -34,12 +35,31 @@ std::string overview(const run::RunReport& report) {
     return table.html();
 }
 
-std::string bake_html(const run::BakeReport& report) {
-    std::string html = "<h2>" + escaped(report.bake->name) + "</h2>\n", list;
+/// Pictures of a page's texture sets, a quarter of a megabyte each.
+class Proofs {
+  public:
+    explicit Proofs(int threads) : threads_(threads) {}
+
+    std::string operator()(const run::BakeReport& report) {
+        if (!has_proof(report)) return "";
+        return (shown_++ < kMost ? texture_proof_html(report, display_, threads_)
+                                 : "<p class=soft>Pictures are of the first " + std::to_string(kMost) +
+                                       " sets; --only shows others.</p>\n") +
+               texture_reading_html(report);
+    }
+
+  private:
+    static constexpr int kMost = 24;
+    DisplayTransform display_;
+    int threads_, shown_ = 0;
+};
+
+std::string bake_html(const run::BakeReport& report, Proofs& proofs) {
+    std::string html = "<h2>" + escaped(report.bake->name) + "</h2>\n";
     if (!report.error.empty()) html += "<p><b>" + escaped(report.error) + "</b></p>\n";
-    for (const std::string& warning : report.warnings) list += "<li>" + escaped(warning) + "</li>";
-    if (!list.empty()) html += "<ul>" + list + "</ul>\n";
+    html += warnings_html(report);
     if (!report.entry.is_object()) return html;
+    html += proofs(report);
     Table files({"file", "bytes"});
     for (const Json& output : report.entry["outputs"])
         files.add({escaped_text(output["path"]), count(output["bytes"].get<std::uint64_t>())});
@@ -56,7 +76,8 @@ std::string run_page(const run::RunReport& report) {
                        " by " + escaped(std::string(run::tool_version())) + ", " +
                        number(report.seconds.wall) + " s on " + std::to_string(report.threads) +
                        (report.threads == 1 ? " thread" : " threads") + ".</p>\n" + overview(report);
-    for (const run::BakeReport& bake : report.bakes) body += bake_html(bake);
+    Proofs proofs(report.threads);
+    for (const run::BakeReport& bake : report.bakes) body += bake_html(bake, proofs);
     return page("pbrbake report", body);
 }
 

@@ -7,7 +7,8 @@
 
 namespace pbrbake::verify {
 
-/// An HTML page: each bake's warnings, files, the figures of its certificate with their curves, and times.
+/// An HTML page: each bake's warnings, what a texture bake kept of its set, the figures of its certificate
+/// with their curves, files and times. Reads texture sets and what they became again.
 std::string run_page(const run::RunReport& report);
 
 }  // namespace pbrbake::verify

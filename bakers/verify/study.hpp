@@ -98,10 +98,10 @@ struct Study {
 };
 
 /// Is given every setting's product, as stored, with the reference's where there is one. The image of a
-/// product without pictures is empty; `files` are what the bake wrote, there until the inspector returns.
+/// product without pictures is empty; the files that `report` names are there until the inspector returns.
 using StudyInspector =
     std::function<void(const StudiedCase& so_far, const StudyPoint& point, const BakedImage& product,
-                       const BakedImage* reference, const std::vector<std::filesystem::path>& files)>;
+                       const BakedImage* reference, const run::BakeReport& report)>;
 
 struct StudyOptions {
     std::filesystem::path folder;  ///< for products and sources while the study runs

@@ -17,9 +17,9 @@ Series pixel_series() {
             "bits",
             {{"8", {{"pixel", "unorm8"}, {"format", "ktx2"}}, ""},
              {"8, dithered", {{"pixel", "unorm8"}, {"format", "ktx2"}, {"dither", true}}, ""},
-             {"16, half", {{"pixel", "half"}}, ""},
+             {"16, half", {{"pixel", "half"}, {"format", "exr"}}, ""},
              {"16", {{"pixel", "unorm16"}, {"format", "ktx2"}}, ""},
-             {"32, float", {{"pixel", "float"}}, ""}}};
+             {"32, float", {{"pixel", "float"}, {"format", "exr"}}, ""}}};
 }
 
 /// What the solver can leave out, and do besides.
@@ -50,8 +50,7 @@ StudyCase set_case(const LegacySet& set, Depth depth, const fs::path& folder) {
     asked.bake["calibrate"] = "none";
     asked.bake["packing"] = "separate";
     asked.bake["pixel"] = "half";
-    asked.series = {pixel_series(), solver_series()};
-    if (set.is_blinn_phong) asked.series.push_back(fit_series());
+    asked.series = texture_series(asked.bake);
     asked.base_step = 2;
     return asked;
 }
@@ -127,6 +126,13 @@ StudyCase light_case(const Falloff& falloff, const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<Series> texture_series(const Json& bake) {
+    std::vector<Series> series{pixel_series(), solver_series()};
+    const std::string model = bake.value("model", std::string());
+    if (model == "blinn_phong" || model == "phong") series.push_back(fit_series());
+    return series;
+}
 
 std::vector<StudyCase> legacy_cases(Depth depth, const fs::path& folder) {
     std::vector<StudyCase> cases;

@@ -9,6 +9,8 @@
 #include "bakers/verify/curve_plot.hpp"
 #include "bakers/verify/page.hpp"
 #include "bakers/verify/picture.hpp"
+#include "bakers/verify/record_html.hpp"
+#include "bakers/verify/texture_proof.hpp"
 #include "pbr/brdf/roughness.hpp"
 #include "pbr/ibl/dfg.hpp"
 #include "pbr/light/colour.hpp"
@@ -132,13 +134,6 @@ bool is_shown(std::size_t step, std::size_t steps) {
     return false;
 }
 
-/// The suite's set that a case converts; null for others.
-const LegacySet* legacy_set_of(const StudyCase& asked) {
-    for (const LegacySet& set : legacy_sets())
-        if (asked.name == std::string("texture_") + set.name) return &set;
-    return nullptr;
-}
-
 std::size_t step_of(const StudiedCase& studied, std::size_t point) {
     std::size_t before = 0;
     for (std::size_t i = 0; i < point; ++i)
@@ -149,18 +144,19 @@ std::size_t step_of(const StudiedCase& studied, std::size_t point) {
 }  // namespace
 
 void PictureBook::take(const StudiedCase& studied, const StudyPoint& point, const BakedImage& product,
-                       const BakedImage* reference, const std::vector<std::filesystem::path>& files) {
+                       const BakedImage* reference, const run::BakeReport& report) {
     const std::size_t index = studied.points.size() - 1;
     if (!is_shown(step_of(studied, index), studied.asked.series[point.series].steps.size())) return;
     const Key key{studied.asked.name, index};
-    const LegacySet* set = legacy_set_of(studied.asked);
-    if (product.image.levels.empty()) {
-        const Json document = job::parse_json(job::read_text(files.front()), files.front().string());
+    if (has_proof(report) && !reference) {
+        if (!proofs_.contains(studied.asked.name)) keep_proof(studied.asked.name, report);
+        keep(key, before_and_after(report));
+    } else if (product.image.levels.empty()) {
+        const std::filesystem::path& file = report.writes.front();
+        const Json document = job::parse_json(job::read_text(file), file.string());
         const Json::json_pointer of_first("/lights/0/falloff/curve");
         const std::string curve = document.contains(of_first) ? curve_html(document[of_first]) : "";
         if (!curve.empty()) keep(key, {{curve, "stops over distance"}});
-    } else if (set && !reference) {
-        keep(key, before_and_after(*set, files));
     } else if (product.image.is_cube() && reference) {
         const int level = shown_level(reference->image);
         const double exposure = exposure_of(*reference, level);
@@ -176,17 +172,27 @@ void PictureBook::take(const StudiedCase& studied, const StudyPoint& point, cons
     }
 }
 
-std::vector<PictureBook::Tile> PictureBook::before_and_after(
-    const LegacySet& set, const std::vector<std::filesystem::path>& files) {
-    auto found = legacy_spheres_.find(set.name);
-    if (found == legacy_spheres_.end())
-        found = legacy_spheres_.emplace(set.name, legacy_sphere(set, kSphere)).first;
-    const LinearPicture &before = found->second, after = converted_sphere(files, kSphere);
-    if (after.rgb.empty()) return {};
-    return {{image(display_(as_seen(before)), 1, "legacy"), "before"},
+std::vector<PictureBook::Tile> PictureBook::before_and_after(const run::BakeReport& report) const {
+    ReadBackSet set(report, 1);
+    const SetSpheres spheres = set_spheres(*set, kSphere, set.context());
+    const LinearPicture &before = spheres.aim(), &after = spheres.stored;
+    return {{image(display_(as_seen(before)), 1, set->is_calibrated() ? "calibrated" : "legacy"), "before"},
             {image(display_(as_seen(after)), 1, "converted"), "after"},
             {image(sphere_difference(after, before), 1, "difference"), "difference"},
             {"<small>FLIP " + number(sphere_flip(after, before)) + "</small>", ""}};
+}
+
+void PictureBook::keep_proof(const std::string& name, const run::BakeReport& report) {
+    std::string html = texture_proof_html(report, display_, 1) + texture_reading_html(report);
+    if (bytes_ + html.size() > most_bytes_) return;
+    bytes_ += html.size();
+    proofs_[name] = std::move(html) + warnings_html(report) + "<h3>Certificate</h3>\n" +
+                    figures_html(report.entry["certificate"]);
+}
+
+std::string PictureBook::proof(const StudiedCase& studied) const {
+    const auto found = proofs_.find(studied.asked.name);
+    return found == proofs_.end() ? "" : found->second;
 }
 
 void PictureBook::keep(const Key& key, std::vector<Tile> tiles) {

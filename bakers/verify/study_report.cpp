@@ -139,9 +139,8 @@ std::string picture_words(const StudiedCase& studied, const PictureBook& picture
         return "Illuminance in stops over distance, both logarithmic: broad the source's law, blue the light "
                "that was fitted; below, red, their difference.";
     if (kind == "texture" && !studied.asked.reference)
-        return "A sphere in the built-in room: as the old renderer shades the maps; as the converted ones "
-               "are "
-               "shaded (Lambert and GGX, scattered once); their difference in luminance over the mean, from "
+        return "A sphere in the built-in room: the set as it was read, or calibrated where it was; as it was "
+               "stored; their difference in luminance over the mean, from "
                "dark (0.1 % and less) to light (100 %), and the mean LDR-FLIP. Both sum over the same 64 × "
                "32 "
                "lights, so that lobes alone differ. Spheres go through " +
@@ -191,8 +190,8 @@ std::string case_html(const StudiedCase& studied, const PictureBook& pictures) {
                 " (shaded) say more of the reference or of storage than of the method: they count as equal. ";
     html +=
         "The broad line is the front: no other setting beats its points in both. Dashed: fitted laws.</p>\n";
-    return html + knee_text(studied) + digit_table(studied) + pictures_html(studied, pictures) +
-           point_table(studied) + reproduce(studied) + "</section>\n";
+    return html + knee_text(studied) + digit_table(studied) + pictures.proof(studied) +
+           pictures_html(studied, pictures) + point_table(studied) + reproduce(studied) + "</section>\n";
 }
 
 /// Which setting is the cheapest for each error, case by case.

@@ -193,7 +193,7 @@ class StudyRun {
         if (const auto free = point.figures.find(studied.asked.free_figure); free != point.figures.end())
             studied.free_error = free->second;
         if (options_.inspect)
-            options_.inspect(studied, point, product, reference ? &*reference : nullptr, report.writes);
+            options_.inspect(studied, point, product, reference ? &*reference : nullptr, report);
     }
 
     /// Flat pictures of another size are held against the reference as a shader would magnify them.

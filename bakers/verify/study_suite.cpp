@@ -312,7 +312,10 @@ StudyCase case_of(const job::Job& job, const job::Bake& bake, Depth depth) {
     if (asked.reference) return asked;
     if (const auto sizes = smaller_sizes(bake.json); !sizes.empty())
         asked.series.push_back(size_series("size", sizes, Json::object()));
-    if (names.empty() && has_property(bake.kind, "accuracy")) {
+    if (bake.kind == "texture") {  // whose accuracy by name changes nothing
+        if (depth == Depth::full)
+            for (Series& series : texture_series(bake.json)) asked.series.push_back(std::move(series));
+    } else if (names.empty() && has_property(bake.kind, "accuracy")) {
         Series accuracy{"accuracy", "accuracy", {}};
         for (const char* name : {"draft", "production", "reference"})
             accuracy.steps.push_back({name, {{"accuracy", name}}, ""});
@@ -336,7 +339,8 @@ std::vector<StudyCase> suite_cases(Depth depth, const fs::path& folder) {
 std::vector<StudyCase> job_cases(const fs::path& job_file, Depth depth) {
     const job::Job job = job::load(job_file);
     std::vector<StudyCase> cases;
-    for (const job::Bake& bake : job.bakes) cases.push_back(case_of(job, bake, depth));
+    for (const job::Bake& bake : job.bakes)
+        if (bake.parts.empty()) cases.push_back(case_of(job, bake, depth));  // not what joins others
     return cases;
 }
 

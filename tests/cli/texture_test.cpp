@@ -166,6 +166,107 @@ TEST(TextureCommand, InspectFlagsWhatNoSurfaceReflects) {
     EXPECT_EQ(json["ranges"].size(), 4u);
 }
 
+TEST(TextureCommand, ShowsWhatWasKeptOnPages) {
+    const TemporaryFolder folder;
+    const fs::path diffuse = folder.write("steel_d.tga", targa(8, 8, 60, 60, 60, 255));
+    folder.write("steel_s.tga", targa(8, 8, 90, 90, 90, 255));
+    const Outcome bake = run_program({"texture", "--diffuse", diffuse, "--specular", folder / "steel_s.tga",
+                                      "--model", "blinn_phong", "--power", "20", "--packing", "unity", "-o",
+                                      folder / "out.ktx2", "--html", folder / "page.html"});
+    ASSERT_EQ(bake.code, 0) << bake.err;
+    folder.write(
+        "job.json",
+        R"({"version": 1, "bakes": [{"kind": "texture", "name": "steel", "model": "blinn_phong", "power": 20,
+        "diffuse": "steel_d.tga", "specular": "steel_s.tga", "format": "png"}]})");
+    const Outcome study =
+        run_program({"study", folder / "job.json", "--budget-s", "1", "--quiet", "-o", folder / "study"});
+    ASSERT_EQ(study.code, 0) << study.err;
+    for (const char* page : {"page.html", "study/study.html"}) {
+        const std::string html = job::read_text(folder / page);
+        for (const char* words : {"<b>before</b>", "<b>calibrated</b>", "<b>after</b>", "FLIP",
+                                  "metal, by the word “steel”", "<code>delta_e_max</code>"})
+            EXPECT_TRUE(html.find(words) != std::string::npos) << page << ": " << words;
+        EXPECT_EQ(html.find("No pictures"), std::string::npos) << page;
+    }
+}
+
+/// The line of a range: "metal f0, sRGB  180 to 255   50.00%    0.00%    0.00%".
+std::string range_line(const std::vector<std::string>& arguments, const std::string& what) {
+    std::vector<std::string> all{"inspect"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run_program(all);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::istringstream lines(outcome.out);
+    std::string found = "nothing of " + what;
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_TRUE(line.size() <= 80 || line.starts_with('/')) << line;  // the file, however long
+        if (line.starts_with(what)) found = line;
+    }
+    return found;
+}
+
+TEST(InspectCommand, FlagsSetsThatWereMadeElsewhere) {
+    const TemporaryFolder folder;
+    const auto grey = [&](const char* name, int size, int value) {
+        return folder.write(name, targa(size, size, value, value, value, 255)).string();
+    };
+    const std::string coal = grey("coal.tga", 8, 8), chalk = grey("chalk.tga", 8, 250),
+                      silver = grey("silver.tga", 8, 248), lead = grey("lead.tga", 8, 120),
+                      dielectric = grey("dielectric.tga", 4, 0), metal = grey("metal.tga", 16, 255),
+                      mixed = grey("mixed.tga", 8, 128);
+    const auto line = [](const std::string& base, const std::string& mask, const char* what) {
+        return range_line({base, "--metallic-roughness", mask}, what);
+    };
+    EXPECT_THAT(line(coal, dielectric, "dielectric base colour"),
+                HasSubstr("30 to 240   100.00%  100.00%    0.00%  outside"));
+    EXPECT_THAT(line(chalk, dielectric, "dielectric base colour"), HasSubstr("0.00%  100.00%  outside"));
+    EXPECT_THAT(line(lead, dielectric, "dielectric base colour"), HasSubstr("100.00%    0.00%    0.00%"));
+    EXPECT_THAT(line(silver, metal, "metal f0"), HasSubstr("180 to 255   100.00%    0.00%    0.00%"));
+    EXPECT_THAT(line(lead, metal, "metal f0"), HasSubstr("100.00%  100.00%    0.00%  outside"));
+    EXPECT_THAT(line(lead, mixed, "metallic, of neither"), HasSubstr("100.00%"));
+    EXPECT_THAT(range_line({silver, "--metallic", metal}, "metal f0"), HasSubstr("100.00%    0.00%"));
+    const Json json =
+        job::parse_json(run_program({"inspect", "--json", lead, "--metallic", metal}).out, "inspection");
+    EXPECT_EQ(json["format"], "tga");
+    EXPECT_EQ(json["ranges"].size(), 3u);  // such a set holds no dielectric f0
+}
+
+TEST(InspectCommand, FlagsSpecularAndGloss) {
+    const TemporaryFolder folder;
+    const std::string clay = folder.write("clay_d.tga", targa(8, 8, 150, 90, 70, 255)).string(),
+                      usual = folder.write("usual.tga", targa(8, 8, 56, 56, 56, 128)).string(),
+                      none = folder.write("none.tga", targa(8, 8, 10, 10, 10, 128)).string(),
+                      steel = folder.write("steel.tga", targa(8, 8, 198, 198, 198, 128)).string();
+    const auto line = [&](const std::string& f0, const char* what) {
+        return range_line({clay, "--specular", f0}, what);
+    };
+    EXPECT_THAT(line(usual, "dielectric diffuse, sRGB"), HasSubstr("100.00%    0.00%    0.00%"));
+    EXPECT_THAT(line(usual, "dielectric f0, linear"), HasSubstr("100.00%    0.00%    0.00%"));
+    EXPECT_THAT(line(none, "dielectric f0, linear"), HasSubstr("100.00%  100.00%    0.00%  outside"));
+    EXPECT_THAT(line(steel, "metal f0, sRGB"), HasSubstr("100.00%    0.00%    0.00%"));
+    EXPECT_THAT(line(steel, "metal diffuse, sRGB"), HasSubstr("100.00%    0.00%  100.00%  outside"));
+    const std::string out = (folder / "out.png").string();
+    ASSERT_EQ(run_program({"texture", "--diffuse", clay, "--specular", steel, "--packing", "specular_gloss",
+                           "--calibrate", "none", "-o", out})
+                  .code,
+              0);
+    EXPECT_THAT(range_line({out}, "metal diffuse, sRGB"), HasSubstr("100.00%    0.00%  100.00%  outside"));
+}
+
+TEST(InspectCommand, NamesWhatItCannotTakeTogetherOrRead) {
+    const TemporaryFolder folder;
+    const std::string base = folder.write("base.tga", targa(4, 4, 90, 90, 90, 255)).string();
+    Outcome outcome = run_program({"inspect", base, "--metallic", base, "--specular", base});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("--specular: found beside --metallic; allowed: one of the two"));
+    outcome = run_program({"inspect", folder / "scene.gltf"});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("scene.gltf: is a document; inspect a picture of its base colour"));
+    outcome = run_program({"inspect", base, "--metallic", folder / "absent.png"});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("absent.png"));
+}
+
 TEST(TextureCommand, TwoHundredSetsTakeTheMemoryOfTwenty) {
     const TemporaryFolder folder;
     const fs::path diffuse = folder.write("d.tga", targa(128, 128, 90, 80, 70, 255));
