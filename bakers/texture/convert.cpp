@@ -8,7 +8,6 @@
 namespace pbrbake::texture {
 namespace {
 
-constexpr float kAllLight = 1.001f;  ///< a code's rounding is no sin
 /// Of diffuse albedo, linear: a half interval is wider near white, where an 8-bit code isn't worth more.
 constexpr float kLeastTolerance = 1e-6f, kLargestTolerance = .5f / 255;
 
@@ -133,7 +132,9 @@ Findings Converter::find() const {
     Findings found;
     for (std::size_t i = 0; i < line_.texels(); ++i) {
         found.f0_clamped += line_.f0_clamped[i];
-        found.over_unity += pbr::max_channel(line_.diffuse[i] + line_.f0[i]) > kAllLight ? 1 : 0;
+        const bool is_above = line_.above_one[i] != 0;
+        found.above_one += is_above;
+        found.over_unity += is_above || pbr::max_channel(line_.diffuse[i] + line_.f0[i]) > kAllLight;
         found.low_confidence += confidence_[i] < .5f ? 1 : 0;
         found.confidence += static_cast<double>(confidence_[i]);
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -62,6 +63,7 @@ struct LegacyRow {
     Planes diffuse_step, f0_step;  ///< quantisation
     std::vector<float> perceptual_roughness, metallic;
     std::vector<std::uint8_t> f0_clamped;
+    std::vector<std::uint8_t> above_one;  ///< whose diffuse or f0 was stored above 1, and is 1
 };
 
 /// Rows of one level of a converted set: `rows` of them from row `first` on, perhaps all.
@@ -80,10 +82,11 @@ struct MapLevel {
 
 /// Shares of texels and means over a set, for the record.
 struct Findings {
-    double f0_clamped = 0, over_unity = 0, low_confidence = 0, metallic = 0, confidence = 0;
+    double f0_clamped = 0, above_one = 0, over_unity = 0, low_confidence = 0, metallic = 0, confidence = 0;
 
     Findings& operator+=(const Findings& other) {
         f0_clamped += other.f0_clamped;
+        above_one += other.above_one;
         over_unity += other.over_unity;
         low_confidence += other.low_confidence;
         metallic += other.metallic;
@@ -128,10 +131,10 @@ class Sources {
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
-    /// One channel, or three from `channel` on, of a picture.
+    /// One channel of a picture, or several: the first and those `step` further each.
     struct Map {
         Picture picture;
-        int channel = 0;
+        int channel = 0, step = 1;
         bool is_full = false;   ///< as large as the set
         bool is_srgb = false;   ///< its codes are even in sRGB
         bool is_coded = false;  ///< as large as the set, and codes
@@ -151,14 +154,19 @@ class Sources {
     };
 
     Map map_of(const std::string& field, int channel) const;
-    ColourMap colour_map_of(const std::string& field, const Colour& factor) const;
+    Map map_of(const std::string& field, int usual, Channel stated) const;
+    ColourMap colour_map_of(const Map& map, const Colour& factor) const;
     void choose_normal();
     void choose_opacity();
+    void choose_emissive();
     void tabulate_gloss();
     void warn_of_sizes(const Inputs& inputs);
     void fetch(const Map& map, int x, int y, float* values, int count) const;
     void unit_values(const Map& map, int x, int y, int count, float* values) const;
     void read_colours(const ColourMap& colours, int x, int y, Planes& values, Planes& half_steps) const;
+    void read_albedos(const ColourMap& colours, int x, int y, Planes& values, Planes& half_steps,
+                      std::vector<std::uint8_t>& above_one) const;
+    float gloss_value(float stored) const;
     void read_lobes(int x, int y, std::vector<const Lobe*>& lobes, std::vector<Lobe>& own) const;
     float exponent(float gloss) const;
     float perceptual_roughness(float gloss, float& exponent) const;
@@ -178,8 +186,23 @@ class Sources {
     std::vector<std::string> warnings_;
 };
 
+/// What may be reflected of light: a code's rounding is no sin.
+inline constexpr float kAllLight = 1.001f;
+
+/// "12 %" of a share; of less than one, "under 1 %".
+inline std::string percent(double share) {
+    return share < .01 ? "under 1 %" : std::to_string(static_cast<int>(share * 100 + .5)) + " %";
+}
+
 /// Slope of IEC 61966-2-1's decoding curve over the square root of the linear value, in 256 steps.
 extern const std::array<float, 257> kSrgbSlopes;
+
+/// Half the interval of a 16-bit float at a value: half a unit in the last of 11 places; of subnormals 2^-25.
+inline float half_float_step(float value) {
+    constexpr std::uint32_t kExponent = 0x7F800000;
+    const auto power_of_two = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) & kExponent);
+    return std::max(power_of_two * 0x1p-11f, 0x1p-25f);
+}
 
 /// Half the linear interval of a code of `bits` (0: float) at a linear value.
 inline float half_step(float linear, int bits, bool is_srgb) {
