@@ -62,7 +62,7 @@ std::optional<Place> find_place(const TextureParams& params, const Inputs& input
     if (is_auto || params.gloss_in == GlossIn::none) return {};
     throw Error(
         ExitCode::unreadable_input, "",
-        "gloss_in: found \"" + std::string(enum_name(params.gloss_in)) + "\", but the set has no such map");
+        "gloss_in: found \"" + std::string(enum_name(params.gloss_in)) + "\", but that map is absent");
 }
 
 bool is_phong(Model model) { return model == Model::blinn_phong || model == Model::phong; }
