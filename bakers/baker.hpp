@@ -41,6 +41,7 @@ struct Read {
     As as = As::picture;
     bool with_alpha = false;  ///< of a picture: keeps a fourth (or of grey, second) channel as A, as stored
     bool as_codes = false;    ///< of a picture: 8-bit files stay codes (SourceImage::codes)
+    Infinity infinity = Infinity::peak;  ///< of a picture
 };
 
 /// What may be asked of files before a bake is settled. Paths are as in the job.

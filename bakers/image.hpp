@@ -56,9 +56,12 @@ struct Image {
     }
 };
 
+/// What becomes of +Inf: of light, the largest finite value of its channel in the image; of numbers that mean
+/// it, as a mirror's exponent does, the largest float.
+enum class Infinity { peak, largest_float };
+
 /// Texels changed while reading, because light is neither negative nor infinite.
-/// The rule: NaN, -Inf and negative channels become 0; +Inf becomes the largest finite value of its channel
-/// in the image.
+/// The rule: NaN, -Inf and negative channels become 0; +Inf becomes what Infinity says.
 struct Repairs {
     std::uint64_t non_finite = 0;  ///< texels with a NaN or Inf in any channel
     std::uint64_t negative = 0;    ///< texels with a negative channel
@@ -73,6 +76,7 @@ struct SourceImage {
     bool colour_space_assumed = false;
     std::string units = "relative";  ///< "cd/m^2" only where the source says so
     int bits = 0;                    ///< of an integer channel in the file; 0: float
+    bool is_half = false;            ///< of floats, whether the file's have 16 bits
     /// A picture of 8-bit codes as the file has them, a quarter of its floats, where a reader asked for them:
     /// laid out as the texels of image's one level, which then is empty but for its size.
     std::vector<std::uint8_t> codes;

@@ -20,16 +20,17 @@ struct Decoded {
     /// In place of both, where codes were asked for and the file has 8 bits: R G B, or R G B A.
     std::vector<std::uint8_t> codes;
     int code_channels = 3;
-    int bits = 0;  ///< of an integer channel, 0 of a float
+    int bits = 0;          ///< of an integer channel, 0 of a float
+    bool is_half = false;  ///< of floats, whether they are 16-bit
     Encoding encoding;
     bool encoding_assumed = true;
     double to_units = 1;  ///< multiplies linear values
     std::string units = "relative";
-    std::string icc_profile;  ///< what an embedded one calls itself; "": there is none
+    std::string icc_profile;  ///< what an embedded one calls itself that isn't followed; "": there is none
 };
 
-/// An OpenEXR file, read as it is decoded.
-Decoded decode_exr(const File& file, const ReadLimits& limits);
+/// An OpenEXR file, read as it is decoded; alpha of a flat picture alone.
+Decoded decode_exr(const File& file, const ReadLimits& limits, bool with_alpha = false);
 
 /// A file in a format that OpenImageIO reads for us.
 enum class ForeignFormat { hdr, png, tiff, targa, jpeg };

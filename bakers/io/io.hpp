@@ -25,9 +25,10 @@ struct ReadRequest {
     std::filesystem::path path = {};
     std::string colour_space = "auto";         ///< of the file; "auto": what the file tells, else by its type
     std::string working_space = "lin_rec709";  ///< of the result: lin_rec709 | acescg
-    bool with_alpha = false;                   ///< keeps alpha, where a PNG, TIFF, TGA or JPEG has it
+    bool with_alpha = false;                   ///< keeps alpha, where a flat picture has it
     ReadLimits limits = {};
     bool as_codes = false;  ///< keeps the codes of 8-bit files whose gamut is the working space's
+    Infinity infinity = Infinity::peak;
     /// The picture, where it is inside another file; `path` then is its name in messages. Not an EXR.
     std::optional<std::vector<std::byte>> bytes = {};
 };

@@ -14,7 +14,7 @@
 namespace pbrbake::io {
 
 /// Raised when anything in this header changes; a module of another number is refused.
-inline constexpr int kModuleAbi = 4;
+inline constexpr int kModuleAbi = 5;
 
 /// What a file says of its picture before a pixel is decoded.
 struct PictureSpec {
@@ -26,7 +26,8 @@ struct PictureSpec {
     int orientation = 1;  ///< as Exif counts: 1 upright, 2 mirrored, 3 turned by 180°, …
     double gamma = 0;     ///< of a power curve the file states, 0 when none
     bool exif_srgb = false;
-    std::string icc_profile;  ///< what an embedded one calls itself, "unnamed"; "": there is none
+    std::string icc_profile;           ///< what an embedded one calls itself, "unnamed"; "": there is none
+    std::vector<std::byte> icc_bytes;  ///< the profile
     std::string compression;
 };
 

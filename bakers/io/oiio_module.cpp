@@ -22,8 +22,11 @@ PictureSpec describe(const OIIO::ImageSpec& spec) {
     picture.orientation = spec.get_int_attribute("Orientation", 1);
     picture.gamma = spec.get_float_attribute("oiio:Gamma", 0.f);
     picture.exif_srgb = spec.get_int_attribute("Exif:ColorSpace", 0) == 1;
-    if (spec.find_attribute("ICCProfile"))
+    if (const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile")) {
         picture.icc_profile = spec.get_string_attribute("ICCProfile:profile_description", "unnamed");
+        const auto* bytes = static_cast<const std::byte*>(profile->data());
+        picture.icc_bytes.assign(bytes, bytes + profile->datasize());
+    }
     picture.compression = spec.get_string_attribute("compression");
     return picture;
 }

@@ -28,11 +28,11 @@ namespace {
 using Imath::Box2i;
 using Imath::V2i;
 
-/// The file's names of R, G and B; one name of a grey picture.
+/// The file's names of R, G and B, one name of a grey picture; and of alpha, where it is read.
 using ChannelNames = std::vector<std::string>;
 
 /// R, G, B; else Y; else the first layer (by name) that has them.
-ChannelNames find_channels(const Imf::ChannelList& channels, const std::string& where) {
+ChannelNames find_channels(const Imf::ChannelList& channels, bool with_alpha, const std::string& where) {
     ChannelNames found;
     const auto has = [&](const std::string& name) { return channels.findChannel(name) != nullptr; };
     const auto take = [&](const std::string& prefix) {
@@ -40,6 +40,7 @@ ChannelNames find_channels(const Imf::ChannelList& channels, const std::string& 
             found = {prefix + "R", prefix + "G", prefix + "B"};
         else if (has(prefix + "Y") && !has(prefix + "RY") && !has(prefix + "BY"))
             found = {prefix + "Y"};
+        if (with_alpha && !found.empty() && has(prefix + "A")) found.push_back(prefix + "A");
     };
     take("");
     std::string listed;
@@ -73,16 +74,18 @@ Box2i picture_window(const Imf::Header& header, bool cube, const std::string& wh
     return display;
 }
 
-/// Reads rows in strips into interleaved RGB, so that memory is taken only as far as the file's bytes last.
-std::vector<float> read_rgb(Imf::InputPart& part, const ChannelNames& names, const Box2i& window) {
+/// Reads rows in strips, so that memory is taken only as far as the file's bytes last.
+void read_texels(Imf::InputPart& part, const ChannelNames& names, const Box2i& window, Decoded& decoded) {
     const Box2i& data = part.header().dataWindow();
     const std::int64_t data_width = std::int64_t{data.max.x} - data.min.x + 1;
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     constexpr int kRows = 64;
     const std::size_t channels = names.size();
     std::vector<float> strip(static_cast<std::size_t>(data_width) * kRows * channels);
-    std::vector<float> rgb;
-    rgb.reserve(static_cast<std::size_t>(width) * height * 3);
+    const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;
+    const std::size_t texels = static_cast<std::size_t>(width) * height;
+    decoded.rgb.reserve(texels * 3);
+    if (has_alpha) decoded.alpha.reserve(texels);
     for (int y = window.min.y; y <= window.max.y; y += kRows) {
         const int last = std::min(y + kRows - 1, window.max.y);
         Imf::FrameBuffer frame;
@@ -97,11 +100,12 @@ std::vector<float> read_rgb(Imf::InputPart& part, const ChannelNames& names, con
             const float* texel = strip.data() + (static_cast<std::size_t>(row) * data_width +
                                                  static_cast<std::size_t>(window.min.x - data.min.x)) *
                                                     channels;
-            for (int x = 0; x < width; ++x, texel += channels)
-                for (std::size_t c = 0; c < 3; ++c) rgb.push_back(texel[channels == 3 ? c : 0]);
+            for (int x = 0; x < width; ++x, texel += channels) {
+                for (std::size_t c = 0; c < 3; ++c) decoded.rgb.push_back(texel[is_grey ? 0 : c]);
+                if (has_alpha) decoded.alpha.push_back(texel[channels - 1]);
+            }
         }
     }
-    return rgb;
 }
 
 /// From OpenEXR's n x 6n picture to six faces of ours.
@@ -148,7 +152,7 @@ void read_statements(const Imf::Header& header, const std::string& where, Decode
 
 }  // namespace
 
-Decoded decode_exr(const File& file, const ReadLimits& limits) {
+Decoded decode_exr(const File& file, const ReadLimits& limits, bool with_alpha) {
     const std::string& where = file.where();
     preflight_exr(file.head(kMostHeaderBytes), file.size(), where, limits);
     try {
@@ -156,7 +160,7 @@ Decoded decode_exr(const File& file, const ReadLimits& limits) {
         Imf::MultiPartInputFile input(stream, 0, false);
         const Imf::Header& header = input.header(0);
         const bool cube = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE;
-        const ChannelNames names = find_channels(header.channels(), where);
+        const ChannelNames names = find_channels(header.channels(), with_alpha && !cube, where);
         const Box2i window = picture_window(header, cube, where);
 
         Imf::InputPart part(input, 0);
@@ -165,7 +169,8 @@ Decoded decode_exr(const File& file, const ReadLimits& limits) {
         decoded.width = window.max.x - window.min.x + 1;
         decoded.height = window.max.y - window.min.y + 1;
         read_statements(header, where, decoded);
-        decoded.rgb = read_rgb(part, names, window);
+        decoded.is_half = header.channels()[names.front()].type == Imf::HALF;
+        read_texels(part, names, window, decoded);
         if (cube) unfold_cube(decoded, where);
         return decoded;
     } catch (const Error&) {

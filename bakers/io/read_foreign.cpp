@@ -7,6 +7,7 @@
 #include "bakers/io/colour.hpp"
 #include "bakers/io/decoded.hpp"
 #include "bakers/io/foreign_claims.hpp"
+#include "bakers/io/icc.hpp"
 #include "bakers/io/module_api.hpp"
 
 namespace pbrbake::io {
@@ -28,10 +29,11 @@ const char* oiio_name(ForeignFormat format) {
     return "";
 }
 
-/// What the file says of its encoding: a PNG's chunks, Exif's ColorSpace, a TGA's gamma. An ICC profile isn't
-/// followed.
+/// What the file says of its encoding: an ICC profile of sRGB, which others yield to (PNG 3rd ed., 4.3); a
+/// PNG's chunks, Exif's ColorSpace, a TGA's gamma.
 std::optional<Encoding> stated_encoding(ForeignFormat format, Bytes file, const std::string& where,
                                         const PictureSpec& spec) {
+    if (is_srgb_profile(spec.icc_bytes, spec.icc_profile)) return Encoding{Curve::srgb, Gamut::rec709, 1, {}};
     if (format == ForeignFormat::png) return png_encoding(file, where);
     if (spec.exif_srgb) return Encoding{Curve::srgb, Gamut::rec709, 1, {}};
     if (format == ForeignFormat::targa && std::abs(spec.gamma - 1) < .01) return Encoding{};
@@ -178,7 +180,7 @@ Decoded decode_foreign(ForeignFormat format, Bytes file, const std::string& wher
     decoded.height = spec.height;
     find_encoding(format, file, where, spec, decoded);
     decoded.bits = spec.is_float ? 0 : 8 * spec.bytes_per_channel;
-    decoded.icc_profile = spec.icc_profile;
+    if (!is_srgb_profile(spec.icc_bytes, spec.icc_profile)) decoded.icc_profile = spec.icc_profile;
     read_texels(*reader, where, as_codes && decoded.bits == 8, decoded);
     turn_upright(spec.orientation, decoded);
     return decoded;

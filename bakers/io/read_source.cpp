@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <new>
 
@@ -47,7 +48,7 @@ Decoded decode(const ReadRequest& request, SourceImage& source) {
     if (file.size() == 0) throw unreadable(file.where(), "is empty");
     if (begins_with(file.head(4), "\x76\x2f\x31\x01"sv)) {
         source.hash = hash_file(request.path);
-        return decode_exr(file, request.limits);
+        return decode_exr(file, request.limits, request.with_alpha);
     }
     return decode_bytes(file.head(file.size()), request, source);
 }
@@ -68,13 +69,17 @@ std::optional<Encoding> resolve_encoding(const ReadRequest& request, const Decod
                 "unknown colour space '" + request.colour_space + "'; allowed: " + listed(colour_spaces()));
 }
 
-/// An embedded profile that says more than the encoding that is used; a profile of sRGB says the same.
+/// An embedded profile that says more than the encoding that is used, or one that colours rarely have.
 std::string colour_doubt(const ReadRequest& request, const Decoded& decoded) {
-    const bool is_srgb = decoded.encoding.curve == Curve::srgb && decoded.encoding.gamut == Gamut::rec709 &&
-                         decoded.icc_profile.find("sRGB") != std::string::npos;
-    if (decoded.icc_profile.empty() || is_srgb || request.colour_space != "auto") return "";
-    return "embeds the ICC profile \"" + decoded.icc_profile + "\", which isn't followed; taken as " +
-           name_of(decoded.encoding) + " (state it with colour_space)";
+    if (request.colour_space != "auto") return "";
+    if (!decoded.icc_profile.empty())
+        return "embeds the ICC profile \"" + decoded.icc_profile + "\", which isn't followed; taken as " +
+               name_of(decoded.encoding) + " (state it with colour_space)";
+    const bool is_stated_linear = decoded.encoding.curve == Curve::linear && !decoded.encoding_assumed;
+    if (decoded.bits == 8 && is_stated_linear)
+        return "says that its 8-bit codes are linear, which they rarely are of colours; taken as " +
+               name_of(decoded.encoding) + " (state colour_space, srgb if that is wrong)";
+    return "";
 }
 
 /// What the 256 codes stand for, unless channels mix.
@@ -107,13 +112,14 @@ void expand_codes(Decoded& decoded) {
     decoded.codes = {};
 }
 
-/// R G B A of both. Alpha is a number of [0, 1] as stored; NaN is 1.
+/// R G B A of both. Alpha is a finite number from 0 on, as stored; NaN is 1.
 std::vector<float> interleaved(const std::vector<float>& rgb, const std::vector<float>& alpha) {
+    constexpr float kLargest = std::numeric_limits<float>::max();
     std::vector<float> rgba;
     rgba.reserve(alpha.size() * 4);
     for (std::size_t i = 0; i < alpha.size(); ++i) {
         rgba.insert(rgba.end(), &rgb[3 * i], &rgb[3 * i] + 3);
-        rgba.push_back(alpha[i] < 1 ? std::max(0.f, alpha[i]) : 1.f);
+        rgba.push_back(std::isnan(alpha[i]) ? 1.f : std::clamp(alpha[i], 0.f, kLargest));
     }
     return rgba;
 }
@@ -155,6 +161,7 @@ SourceImage read_source(const ReadRequest& request) {
         const std::optional<Encoding> encoding = resolve_encoding(request, decoded, source);
         source.colour_doubt = colour_doubt(request, decoded);
         source.bits = decoded.bits;
+        source.is_half = decoded.is_half;
         source.image.channels = {"R", "G", "B"};
         source.image.faces = decoded.faces;
         if (!decoded.codes.empty()) {
@@ -167,7 +174,7 @@ SourceImage read_source(const ReadRequest& request) {
             }
             expand_codes(decoded);
         }
-        repair_non_finite(decoded.rgb, source.repairs);
+        repair_non_finite(decoded.rgb, source.repairs, request.infinity);
         if (encoding) convert(*encoding, *working, decoded.rgb, where);
         if (decoded.to_units != 1)
             for (float& value : decoded.rgb) value = static_cast<float>(value * decoded.to_units);

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace pbrbake::io {
 
-void repair_non_finite(std::span<float> rgb, Repairs& repairs) {
+void repair_non_finite(std::span<float> rgb, Repairs& repairs, Infinity infinity) {
     std::array<float, 3> largest{};
     std::uint64_t broken = 0;
     for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
@@ -22,6 +23,7 @@ void repair_non_finite(std::span<float> rgb, Repairs& repairs) {
     }
     repairs.non_finite += broken;
     if (broken == 0) return;
+    if (infinity == Infinity::largest_float) largest.fill(std::numeric_limits<float>::max());
     for (std::size_t i = 0; i < rgb.size(); ++i)
         if (!std::isfinite(rgb[i])) rgb[i] = rgb[i] > 0 ? largest[i % 3] : 0.f;
 }

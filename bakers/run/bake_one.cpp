@@ -189,7 +189,8 @@ class BakeRun {
                                 job_.working_space,
                                 source.read.with_alpha,
                                 {job_.max_side, job_.max_decoded_bytes},
-                                source.read.as_codes};
+                                source.read.as_codes,
+                                source.read.infinity};
         if (source.image) {
             request.bytes = embedded_.read(source.file, *source.image);
             request.path = source.file.parent_path() / source.read.path;
@@ -201,9 +202,9 @@ class BakeRun {
         const std::string& path = source.read.path;
         const Repairs& repairs = image.repairs;
         if (repairs.non_finite > 0)
-            report_.warnings.push_back(
-                path + ": " + std::to_string(repairs.non_finite) +
-                " texels were NaN or infinite; NaN became 0, infinity the largest value");
+            report_.warnings.push_back(path + ": " + std::to_string(repairs.non_finite) +
+                                       " texels were NaN or infinite; NaN became 0, infinity the largest " +
+                                       (source.read.infinity == Infinity::peak ? "value" : "float"));
         if (repairs.negative > 0)
             report_.warnings.push_back(path + ": " + std::to_string(repairs.negative) +
                                        " texels were negative (lowest " + number_text(repairs.lowest) +

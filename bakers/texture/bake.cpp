@@ -43,13 +43,14 @@ float map_value(ExtraMap map, const Layout& layout, const Rows& rows, const Texe
 void warn(const Sources& sources, const Survey& survey, const Findings& found, Product& product) {
     for (const std::string& warning : sources.warnings()) product.warnings.push_back(warning);
     for (const std::string& warning : survey.doubts.warnings) product.warnings.push_back(warning);
-    const auto percent = [](double share) {
-        return std::to_string(static_cast<int>(share * 100 + .5)) + " %";
-    };
     if (found.f0_clamped > 0)
         product.warnings.push_back(
             percent(found.f0_clamped) +
             " of texels had specular lobes that reflect more than a PBR lobe can; f0 is 1 there");
+    if (found.above_one > 0)
+        product.warnings.push_back(percent(found.above_one) +
+                                   " of texels have a diffuse or specular above 1, and are taken as 1; state "
+                                   "diffuse_factor or specular_factor if the map is scaled");
     if (found.over_unity > .01)
         product.warnings.push_back(percent(found.over_unity) + " of texels return more light than arrives");
     if (found.low_confidence > .5)
@@ -104,8 +105,8 @@ class SetBake {
         Findings total;
         for (const Findings& row : findings_) total += row;
         const double texels = static_cast<double>(sources_.width()) * sources_.height();
-        for (double* sum : {&total.f0_clamped, &total.over_unity, &total.low_confidence, &total.metallic,
-                            &total.confidence})
+        for (double* sum : {&total.f0_clamped, &total.above_one, &total.over_unity, &total.low_confidence,
+                            &total.metallic, &total.confidence})
             *sum /= texels;
         product.properties["set"] = properties_json(params_, layout_, survey_, total, sources_, unit);
         add_documents(unit, product);
@@ -354,6 +355,14 @@ std::vector<Mistake> check(const TextureParams& params, const std::string& forma
     if (format == "gltf" && params.packing != Packing::gltf)
         mistakes.push_back({"/packing", "found \"" + std::string(enum_name(params.packing)) +
                                             "\"; allowed with format gltf: \"gltf\""});
+    const bool is_gloss_in_alpha = params.gloss_in != GlossIn::automatic && params.gloss_in != GlossIn::gloss;
+    if (is_gloss_in_alpha && params.gloss_channel != Channel::automatic)
+        mistakes.push_back({"/gloss_channel", "found \"" + std::string(enum_name(params.gloss_channel)) +
+                                                  "\" beside gloss_in " +
+                                                  std::string(enum_name(params.gloss_in)) +
+                                                  "; allowed: auto, or gloss_in auto or gloss"});
+    if (params.gloss_in == GlossIn::normal_alpha && params.normal_in == NormalIn::ag)
+        mistakes.push_back({"/gloss_in", "found \"normal_alpha\", but normal_in ag has x in that alpha"});
     if (params.packing != Packing::gltf && !params.emissive.empty())
         mistakes.push_back({"/emissive", "is written with packing gltf alone; allowed: \"\""});
     const Format* container = find_format(format);
@@ -365,13 +374,14 @@ std::vector<Mistake> check(const TextureParams& params, const std::string& forma
 
 std::vector<Read> reads(const TextureParams& params) {
     std::vector<Read> list;
-    const auto add = [&](const char* field, const std::string& path, const std::string& space) {
-        if (!path.empty()) list.push_back({field, path, space, Read::As::picture, true, true});
+    const auto add = [&](const char* field, const std::string& path, const std::string& space,
+                         Infinity infinity = Infinity::peak) {
+        if (!path.empty()) list.push_back({field, path, space, Read::As::picture, true, true, infinity});
     };
     add("diffuse", params.diffuse, params.colour_space);
     add("specular", params.specular, params.colour_space);
     add("base_color", params.base_color, params.colour_space);
-    add("gloss", params.gloss, "raw");
+    add("gloss", params.gloss, "raw", Infinity::largest_float);  // a mirror's exponent
     add("metallic_roughness", params.metallic_roughness, "raw");
     add("metallic", params.metallic, "raw");
     add("normal", params.normal, "raw");

@@ -7,11 +7,7 @@
 #include "bakers/texture/pack.hpp"
 
 namespace pbrbake::texture {
-namespace {
-
-constexpr float kAllLight = 1.001f;  ///< a code's rounding is no sin
-
-}  // namespace
+namespace {}  // namespace
 
 Survey survey(const Sources& sources, Context& context) {
     Survey result{find_calibration(sources, context), false, 0, find_doubts(sources)};
@@ -133,15 +129,18 @@ void Converter::read_own(int y) {
 Findings Converter::find() const {
     const auto [dr, dg, db] = line_.diffuse.from(0);
     const auto [sr, sg, sb] = line_.f0.from(0);
-    int clamped = 0, over = 0, low = 0;
+    int clamped = 0, above = 0, over = 0, low = 0;
     Findings found;
     for (std::size_t i = 0; i < line_.texels(); ++i) {
+        const bool is_above = line_.above_one[i] != 0;
+        above += is_above;
         clamped += line_.f0_clamped[i];
-        over += std::max(dr[i] + sr[i], std::max(dg[i] + sg[i], db[i] + sb[i])) > kAllLight;
+        over += is_above || std::max(dr[i] + sr[i], std::max(dg[i] + sg[i], db[i] + sb[i])) > kAllLight;
         low += confidence_[i] < .5f;
     }
     for (const float confidence : confidence_) found.confidence += static_cast<double>(confidence);
     found.f0_clamped = clamped;
+    found.above_one = above;
     found.over_unity = over;
     found.low_confidence = low;
     return found;

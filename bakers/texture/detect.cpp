@@ -66,6 +66,7 @@ void doubt_exponents(Doubts& doubts) {
 
 Doubts find_doubts(const Sources& sources) {
     constexpr int kSide = 256;
+    constexpr float kMirror = 1e30f;  // the largest float over any power_scale: no number to doubt
     const GlossIs is = sources.gloss().is;
     const bool has_exponents = is == GlossIs::power || is == GlossIs::power_log2;
     const int step_x = std::max(1, sources.width() / kSide), step_y = std::max(1, sources.height() / kSide);
@@ -80,8 +81,8 @@ Doubts find_doubts(const Sources& sources) {
             if (sources.has_occlusion())
                 occlusion.add(static_cast<double>(sources.occlusion(x, y)),
                               luminance(texel.reflected.diffuse));
-            if (sources.has_gloss() && has_exponents)
-                exponents.push_back(static_cast<double>(sources.exponent_at(x, y)));
+            const float n = sources.has_gloss() && has_exponents ? sources.exponent_at(x, y) : kMirror;
+            if (n < kMirror) exponents.push_back(static_cast<double>(n));
         }
     Doubts doubts{gloss.value(), occlusion.value(), {}, {}, {}};
     if (!exponents.empty()) {

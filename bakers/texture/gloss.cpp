@@ -1,7 +1,9 @@
 #include "bakers/texture/gloss.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "bakers/parse/materials.hpp"
 #include "bakers/texture/names.hpp"
 #include "bakers/texture/picture.hpp"
 
@@ -23,32 +25,44 @@ constexpr std::array kPlaces{
     Place{GlossIn::metallic_alpha, "metallic", 3, false},
 };
 
+/// A map of gloss or of metallic and roughness, in which gloss_channel chooses; else an alpha.
+bool is_map(GlossIn in) { return in == GlossIn::gloss || in == GlossIn::automatic; }
+
 bool holds_exponents(GlossIs is) { return is == GlossIs::power || is == GlossIs::power_log2; }
 
-/// Stated, or of a stated alpha that its picture doesn't store, as it is 1.
+/// Stated, or of a glTF material whose specular picture stores no alpha: it is 1
+/// (KHR_materials_pbrSpecularGlossiness).
 bool is_constant(const TextureParams& params, const Inputs& inputs) {
-    return params.gloss_in == GlossIn::constant || std::ranges::any_of(kPlaces, [&](const Place& place) {
-               const Picture picture = picture_of(inputs, place.field);
-               return params.gloss_in == place.in && place.channel == 3 && picture && picture.channels() <= 3;
-           });
+    const Picture specular = picture_of(inputs, "specular");
+    const std::string end = parse::extension_of(params.source);
+    return params.gloss_in == GlossIn::constant ||
+           (params.gloss_in == GlossIn::specular_alpha && (end == ".gltf" || end == ".glb") && specular &&
+            specular.channels() <= 3);
 }
 
-const Place* find_place(const TextureParams& params, const Inputs& inputs) {
-    const bool is_auto = params.gloss_in == GlossIn::automatic;
-    for (const Place& place : kPlaces) {
+std::optional<Place> find_place(const TextureParams& params, const Inputs& inputs) {
+    const bool is_auto = params.gloss_in == GlossIn::automatic,
+               has_channel = params.gloss_channel != Channel::automatic;
+    for (Place place : kPlaces) {
         if (is_auto ? !place.is_guessed : params.gloss_in != place.in) continue;
         const Picture picture = picture_of(inputs, place.field);
-        if (picture.channels() <= place.channel) continue;
-        if (!is_auto || place.channel < 3) return &place;
+        if (!picture) continue;
+        if (is_map(place.in) && has_channel) {
+            place.channel = index_of(params.gloss_channel);
+            require_channel(inputs, place.field, place.channel, "gloss_channel",
+                            enum_name(params.gloss_channel));
+        }
+        if (!is_auto) require_channel(inputs, place.field, place.channel, "gloss_in", enum_name(place.in));
+        if (!is_auto || is_map(place.in)) return place;
         // An alpha that is the same everywhere was added by a file format; a stated exponent is the set's,
         // unless gloss_is says that the alpha has exponents too.
         const bool is_wanted = params.power <= 0 || holds_exponents(params.gloss_is);
-        if (is_wanted && picture.varies(place.channel)) return &place;
+        if (is_wanted && picture.channels() > place.channel && picture.varies(place.channel)) return place;
     }
-    if (is_auto || params.gloss_in == GlossIn::none) return nullptr;
-    throw Error(ExitCode::unreadable_input, "",
-                "gloss_in: found \"" + std::string(enum_name(params.gloss_in)) +
-                    "\", but that map is absent or has no such channel");
+    if (is_auto || params.gloss_in == GlossIn::none) return {};
+    throw Error(
+        ExitCode::unreadable_input, "",
+        "gloss_in: found \"" + std::string(enum_name(params.gloss_in)) + "\", but that map is absent");
 }
 
 bool is_phong(Model model) { return model == Model::blinn_phong || model == Model::phong; }
@@ -85,7 +99,11 @@ GlossIs gloss_named(const std::string& path) {
 GlossReading find_gloss(const TextureParams& params, const Inputs& inputs) {
     GlossReading gloss;
     const bool is_everywhere = is_constant(params, inputs);
-    const Place* place = is_everywhere ? nullptr : find_place(params, inputs);
+    const std::optional<Place> place = is_everywhere ? std::nullopt : find_place(params, inputs);
+    if (params.gloss_channel != Channel::automatic && !(place && is_map(place->in)))
+        throw Error(ExitCode::unreadable_input, "",
+                    "gloss_channel: found \"" + std::string(enum_name(params.gloss_channel)) +
+                        "\", but gloss is read from no map of its own; state gloss, or leave it auto");
     if (!place && !is_everywhere) {
         gloss.reason = params.power > 0 ? "stated by power" : "nothing";
         if (params.power <= 0)

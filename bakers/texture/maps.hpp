@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -64,6 +65,7 @@ struct LegacyRow {
     std::vector<float> perceptual_roughness, metallic;
     std::vector<float> lobe_albedo;  ///< of legacy lobes of ks = 1
     std::vector<std::uint8_t> f0_clamped;
+    std::vector<std::uint8_t> above_one;  ///< whose diffuse or f0 was stored above 1, and is 1
 };
 
 /// Rows of one level of a converted set: `rows` of them from row `first` on, perhaps all.
@@ -83,10 +85,11 @@ struct MapLevel {
 
 /// Shares of texels and means over a set, for the record.
 struct Findings {
-    double f0_clamped = 0, over_unity = 0, low_confidence = 0, metallic = 0, confidence = 0;
+    double f0_clamped = 0, above_one = 0, over_unity = 0, low_confidence = 0, metallic = 0, confidence = 0;
 
     Findings& operator+=(const Findings& other) {
         f0_clamped += other.f0_clamped;
+        above_one += other.above_one;
         over_unity += other.over_unity;
         low_confidence += other.low_confidence;
         metallic += other.metallic;
@@ -157,14 +160,19 @@ class Sources {
         float mean = 0;  ///< albedo of the legacy lobe
     };
 
-    SizedMap map_of(const std::string& field, int channel) const;
-    ColourMap colour_map_of(const std::string& field, const Colour& factor) const;
+    SizedMap map_of(const std::string& field, int channel, int step = 1) const;
+    SizedMap map_of(const std::string& field, int usual, Channel stated, int step = 1) const;
+    ColourMap colour_map_of(const SizedMap& map, const Colour& factor) const;
     void choose_normal();
     void choose_opacity();
+    void choose_emissive();
     void tabulate_gloss();
     void warn_of_sizes(const Inputs& inputs);
     void unit_values(const SizedMap& map, int x, int y, std::span<float> values) const;
     void read_colours(const ColourMap& colours, int x, int y, Planes& values, Planes& half_steps) const;
+    void read_albedos(const ColourMap& colours, int x, int y, Planes& values, Planes& half_steps,
+                      std::vector<std::uint8_t>& above_one) const;
+    float gloss_value(float stored) const;
     void read_lobes(int x, int y, LegacyRow& row) const;
     float exponent(float gloss) const;
     float perceptual_roughness(float gloss, float& exponent) const;
@@ -185,8 +193,23 @@ class Sources {
     std::vector<std::string> warnings_;
 };
 
+/// What may be reflected of light: a code's rounding is no sin.
+inline constexpr float kAllLight = 1.001f;
+
+/// "12 %" of a share; of less than one, "under 1 %".
+inline std::string percent(double share) {
+    return share < .01 ? "under 1 %" : std::to_string(static_cast<int>(share * 100 + .5)) + " %";
+}
+
 /// Slope of IEC 61966-2-1's decoding curve over the square root of the linear value, in 256 steps.
 extern const std::array<float, 257> kSrgbSlopes;
+
+/// Half the interval of a 16-bit float at a value: half a unit in the last of 11 places; of subnormals 2^-25.
+inline float half_float_step(float value) {
+    constexpr std::uint32_t kExponent = 0x7F800000;
+    const auto power_of_two = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) & kExponent);
+    return std::max(power_of_two * 0x1p-11f, 0x1p-25f);
+}
 
 /// Half the linear interval of a code of `bits` (0: float) at a linear value.
 inline float half_step(float linear, int bits, bool is_srgb) {

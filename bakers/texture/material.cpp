@@ -103,6 +103,7 @@ Json properties_json(const TextureParams& params, const Layout& layout, const Su
     json["mean_confidence"] = findings.confidence;
     json["low_confidence"] = findings.low_confidence;
     json["f0_clamped"] = findings.f0_clamped;
+    json["above_one"] = findings.above_one;
     json["over_unity"] = findings.over_unity;
     return json;
 }

@@ -25,6 +25,11 @@ enum class GlossIn {
     constant
 };
 enum class GlossIs { automatic, smoothness, perceptual_roughness, alpha, power, power_log2 };
+/// One channel of a picture; automatic: the usual one of its field.
+enum class Channel { automatic, r, g, b, a };
+constexpr int index_of(Channel channel) { return static_cast<int>(channel) - 1; }
+enum class GlossSpace { linear, srgb };
+enum class NormalIn { xyz, xy, ag };
 enum class Green { automatic, up, down };
 enum class AlphaIs { automatic, opacity, nothing };
 enum class SurfaceIs { automatic, any, dielectric, metal };
@@ -40,12 +45,14 @@ struct TextureParams {
     std::string base_color, metallic_roughness, metallic;                        ///< paths
     std::string rules;                                                           ///< path
     std::string colour_space;
+    Channel specular_channel, gloss_channel, metallic_channel, occlusion_channel, opacity_channel;
     Model model;
     Coupling diffuse_coupling;
     Norm norm;
     Fit fit;
     GlossIn gloss_in;
     GlossIs gloss_is;
+    GlossSpace gloss_space;
     double power_scale;
     double power;  ///< 0: none
     std::vector<double> diffuse_factor, specular_factor;
@@ -57,6 +64,7 @@ struct TextureParams {
     bool double_sided;
     std::vector<double> uv_offset, uv_scale;
     double uv_rotation;
+    NormalIn normal_in;
     Green normal_green;
     AlphaIs alpha_is;
     SurfaceIs surface;
@@ -89,12 +97,18 @@ struct TextureParams {
         visit("metallic", &TextureParams::metallic);
         visit("rules", &TextureParams::rules);
         visit("colour_space", &TextureParams::colour_space);
+        visit("specular_channel", &TextureParams::specular_channel);
+        visit("gloss_channel", &TextureParams::gloss_channel);
+        visit("metallic_channel", &TextureParams::metallic_channel);
+        visit("occlusion_channel", &TextureParams::occlusion_channel);
+        visit("opacity_channel", &TextureParams::opacity_channel);
         visit("model", &TextureParams::model);
         visit("diffuse_coupling", &TextureParams::diffuse_coupling);
         visit("norm", &TextureParams::norm);
         visit("fit", &TextureParams::fit);
         visit("gloss_in", &TextureParams::gloss_in);
         visit("gloss_is", &TextureParams::gloss_is);
+        visit("gloss_space", &TextureParams::gloss_space);
         visit("power_scale", &TextureParams::power_scale);
         visit("power", &TextureParams::power);
         visit("diffuse_factor", &TextureParams::diffuse_factor);
@@ -110,6 +124,7 @@ struct TextureParams {
         visit("uv_offset", &TextureParams::uv_offset);
         visit("uv_scale", &TextureParams::uv_scale);
         visit("uv_rotation", &TextureParams::uv_rotation);
+        visit("normal_in", &TextureParams::normal_in);
         visit("normal_green", &TextureParams::normal_green);
         visit("alpha_is", &TextureParams::alpha_is);
         visit("surface", &TextureParams::surface);
@@ -157,6 +172,18 @@ template <>
 struct EnumNames<texture::GlossIs> {
     static constexpr std::array<std::string_view, 6> names{"auto",  "smoothness", "perceptual_roughness",
                                                            "alpha", "power",      "power_log2"};
+};
+template <>
+struct EnumNames<texture::Channel> {
+    static constexpr std::array<std::string_view, 5> names{"auto", "r", "g", "b", "a"};
+};
+template <>
+struct EnumNames<texture::GlossSpace> {
+    static constexpr std::array<std::string_view, 2> names{"linear", "srgb"};
+};
+template <>
+struct EnumNames<texture::NormalIn> {
+    static constexpr std::array<std::string_view, 3> names{"xyz", "xy", "ag"};
 };
 template <>
 struct EnumNames<texture::Green> {

@@ -1,5 +1,7 @@
 #include "bakers/texture/picture.hpp"
 
+#include <algorithm>
+
 namespace pbrbake::texture {
 namespace {
 
@@ -53,9 +55,29 @@ bool Picture::is_grey() const {
     return codes_ ? is_equal(codes_) : is_equal(texels_);
 }
 
+double Picture::share_above_one() const {
+    if (codes_) return 0;
+    const std::size_t texels = static_cast<std::size_t>(width_) * height_;
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < texels; ++i) {
+        const float* rgb = texels_ + i * channels_;
+        found += std::max({rgb[0], rgb[1], rgb[2]}) > 1;
+    }
+    return static_cast<double>(found) / static_cast<double>(texels);
+}
+
 Picture picture_of(const Inputs& inputs, const std::string& field) {
     const auto found = inputs.find(field);
     return found == inputs.end() || found->second.image.levels.empty() ? Picture() : Picture(found->second);
+}
+
+void require_channel(const Inputs& inputs, const std::string& field, int channel, const std::string& stating,
+                     std::string_view stated) {
+    const Picture picture = picture_of(inputs, field);
+    if (picture && channel >= picture.channels())
+        throw Error(ExitCode::unreadable_input, "",
+                    stating + ": found \"" + std::string(stated) + "\", but the picture of " + field +
+                        " has no alpha");
 }
 
 }  // namespace pbrbake::texture

@@ -30,6 +30,13 @@ class FieldReader {
         if (key == "norm") return word(key, params_.norm);
         if (key == "gloss_in") return word(key, params_.gloss_in);
         if (key == "gloss_is") return word(key, params_.gloss_is);
+        if (key == "gloss_space") return word(key, params_.gloss_space);
+        if (key == "specular_channel") return word(key, params_.specular_channel);
+        if (key == "gloss_channel") return word(key, params_.gloss_channel);
+        if (key == "metallic_channel") return word(key, params_.metallic_channel);
+        if (key == "occlusion_channel") return word(key, params_.occlusion_channel);
+        if (key == "opacity_channel") return word(key, params_.opacity_channel);
+        if (key == "normal_in") return word(key, params_.normal_in);
         if (key == "normal_green") return word(key, params_.normal_green);
         if (key == "alpha_is") return word(key, params_.alpha_is);
         if (key == "power_scale") return number(key, 1e-6, 1e6, params_.power_scale);
@@ -38,8 +45,10 @@ class FieldReader {
         if (key == "f0_tolerance") return number(key, 0, .2, params_.f0_tolerance);
         if (key != "match" && key != "f0")
             fields_.refuse(key,
-                           "match, f0, surface, calibrate, model, norm, gloss_in, gloss_is, normal_green, "
-                           "alpha_is, power_scale, power, dielectric_f0, f0_tolerance");
+                           "match, f0, surface, calibrate, model, norm, gloss_in, gloss_is, gloss_space, "
+                           "specular_channel, gloss_channel, metallic_channel, occlusion_channel, "
+                           "opacity_channel, normal_in, normal_green, alpha_is, power_scale, power, "
+                           "dielectric_f0, f0_tolerance");
     }
 
   private:

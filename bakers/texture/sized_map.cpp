@@ -5,8 +5,8 @@
 
 namespace pbrbake::texture {
 
-SizedMap::SizedMap(const Picture& picture, int channel, int width, int height, Wrap wrap)
-    : picture_(picture), channel_(channel) {
+SizedMap::SizedMap(const Picture& picture, int channel, int step, int width, int height, Wrap wrap)
+    : picture_(picture), channel_(channel), step_(step) {
     if (picture.width() == width && picture.height() == height) return;
     columns_ = places(picture.width(), width, wrap);
     rows_ = places(picture.height(), height, wrap);
@@ -26,7 +26,7 @@ std::vector<SizedMap::Place> SizedMap::places(int size, int set_size, Wrap wrap)
 }
 
 void SizedMap::read(int c, int x, int y, std::span<float> values) const {
-    const int channel = channel_ + c;
+    const int channel = this->channel(c);
     if (rows_.empty()) return picture_.read(x, y, channel, values);
     const Place& row = rows_[static_cast<std::size_t>(y)];
     const auto between = [](float first, float second, float share) {
@@ -43,9 +43,9 @@ void SizedMap::read(int c, int x, int y, std::span<float> values) const {
     }
 }
 
-const std::uint8_t* SizedMap::codes(int x, int y) const {
+const std::uint8_t* SizedMap::codes(int c, int x, int y) const {
     const std::uint8_t* codes = rows_.empty() ? picture_.codes(x, y) : nullptr;
-    return codes ? codes + channel_ : nullptr;
+    return codes ? codes + channel(c) : nullptr;
 }
 
 }  // namespace pbrbake::texture

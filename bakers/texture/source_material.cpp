@@ -78,9 +78,11 @@ class Filling {
 
     bool is_file(const std::string& path) const { return !files_.find(path).empty(); }
 
-    /// What gloss is goes together: who states a part of it states all of it.
-    bool states_gloss() const {
-        return std::ranges::any_of(std::array{"gloss", "gloss_in", "gloss_is", "gloss_factor", "power"},
+    /// What gloss is goes together: who states a part of it states all of it. But gloss_is alone says how the
+    /// source's map is read, if it has one.
+    bool states_gloss(bool has_map) const {
+        return (states("gloss_is") && !has_map) ||
+               std::ranges::any_of(std::array{"gloss", "gloss_in", "gloss_factor", "power"},
                                    [&](const char* field) { return states(field); });
     }
 
@@ -155,7 +157,7 @@ void fill_constant_gloss(double smoothness, Filling& fill) {
 
 void fill_phong_gloss(const LegacyMaterial& material, Filling& fill) {
     constexpr double kWidest = 1e-3;  // an exponent of 0 means no exponent in a job
-    if (fill.states_gloss()) return;
+    if (fill.states_gloss(!material.gloss.path.empty())) return;
     if (material.gloss.path.empty()) {
         if (material.exponent) fill.set("power", std::max(*material.exponent, kWidest));
         return;
@@ -197,14 +199,14 @@ void fill_specular_gloss(const LegacyMaterial& material, Filling& fill) {
     fill.set("normal_green", "up");    // glTF 2.0, "Material.normalTexture"
     fill.set("colour_space", "srgb");  // the extension's word for both pictures
     if (is_high_dielectric(material)) fill.set("surface", "dielectric");
-    if (fill.states_gloss()) return;
+    if (fill.states_gloss(!material.specular.path.empty())) return;
     if (material.specular.path.empty()) return fill_constant_gloss(material.glossiness, fill);
     fill.set("gloss_in", "specular_alpha");
     fill.set("gloss_factor", material.glossiness);
 }
 
 void fill_roughness(const LegacyMaterial& material, Filling& fill) {
-    if (fill.states_gloss()) return;
+    if (fill.states_gloss(!material.roughness_map.path.empty())) return;
     if (material.roughness_map.path.empty())
         return fill_constant_gloss(1 - material.perceptual_roughness, fill);
     fill.map("gloss", material.roughness_map);
@@ -280,7 +282,7 @@ void fill_from_material(const LegacyMaterial& material, bool is_part, Expansion&
             fill.set("model", "specular_gloss");
             fill.set("diffuse_coupling", "none");
             fill.set_vector("specular_factor", glm::dvec3(0));
-            if (!fill.states_gloss()) fill_constant_gloss(0, fill);
+            if (!fill.states_gloss(false)) fill_constant_gloss(0, fill);
         } else {
             fill_phong(material, fill);
         }
@@ -329,8 +331,9 @@ void fill_from_names(const std::string& base, Filling& fill) {
     fill.picture("emissive", base, {"_e", "_glow"});
     fill.set("model", "blinn_phong");
     fill.set("norm", "over_pi");
-    if (fill.states_gloss()) return;
+    if (fill.states_gloss(true)) return;
     if (fill.picture("gloss", base, {"_g", "_gloss"})) return fill.set("gloss_is", "smoothness");
+    if (fill.states_gloss(false)) return;
     fill.set("gloss_is", "power");
     fill.set("power_scale", kExponent);
     fill.set("power", kExponent);

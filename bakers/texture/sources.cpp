@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "bakers/texture/maps.hpp"
 #include "pbr/brdf/roughness.hpp"
@@ -15,6 +16,13 @@ namespace {
 
 Colour colour_of(const std::vector<double>& factor) {
     return {static_cast<float>(factor[0]), static_cast<float>(factor[1]), static_cast<float>(factor[2])};
+}
+
+/// IEC 61966-2-1, of a code over its largest.
+float from_srgb(float code) {
+    const double c = std::clamp(static_cast<double>(code), 0., 1.);
+    return static_cast<float>(c <= .04045 ? c / 12.92
+                                          : pbr::exp_exact(2.4 * pbr::log_exact((c + .055) / 1.055)));
 }
 
 pbr::PhongNorm norm_of(Norm norm) { return static_cast<pbr::PhongNorm>(norm); }
@@ -54,11 +62,15 @@ Sources::Sources(const TextureParams& params, const Inputs& inputs)
     if (is_metallic && is_told)
         warnings_.push_back("surface: is stated as " + std::string(enum_name(rules_.params.surface)) +
                             ", but the set has a metallic mask, which is believed");
-    diffuse_ = colour_map_of(is_metallic ? "base_color" : "diffuse", colour_of(params.diffuse_factor));
-    specular_ = colour_map_of("specular", colour_of(params.specular_factor));
-    occlusion_ = map_of("occlusion", 0);
-    emissive_ = map_of("emissive", 0);
-    metallic_ = params.metallic.empty() ? map_of("metallic_roughness", 2) : map_of("metallic", 0);
+    diffuse_ =
+        colour_map_of(map_of(is_metallic ? "base_color" : "diffuse", 0), colour_of(params.diffuse_factor));
+    const Channel grey = rules_.params.specular_channel;
+    specular_ = colour_map_of(map_of("specular", 0, grey, grey == Channel::automatic ? 1 : 0),
+                              colour_of(params.specular_factor));
+    occlusion_ = map_of("occlusion", 0, rules_.params.occlusion_channel);
+    choose_emissive();
+    metallic_ = params.metallic.empty() ? map_of("metallic_roughness", 2, rules_.params.metallic_channel)
+                                        : map_of("metallic", 0, rules_.params.metallic_channel);
     gloss_ = map_of(gloss_reading_.field, gloss_reading_.channel);
     choose_normal();
     choose_opacity();
@@ -83,42 +95,77 @@ void Sources::warn_of_sizes(const Inputs& inputs) {
 }
 
 /// No map where the set has no such file, or that no such channel.
-SizedMap Sources::map_of(const std::string& field, int channel) const {
+SizedMap Sources::map_of(const std::string& field, int channel, int step) const {
     const Picture picture = picture_of(inputs_, field);
     if (picture.channels() <= channel) return {};
-    return {picture, channel, width_, height_, rules_.params.wrap};
+    return {picture, channel, step, width_, height_, rules_.params.wrap};
 }
 
-Sources::ColourMap Sources::colour_map_of(const std::string& field, const Colour& factor) const {
-    ColourMap colours{map_of(field, 0), factor, {}, {}};
-    if (!colours.map.codes(0, 0)) return colours;
-    for (std::size_t c = 0; c < 3; ++c)
+/// Of the channel that is stated, which must be there if the map is.
+SizedMap Sources::map_of(const std::string& field, int usual, Channel stated, int step) const {
+    if (stated == Channel::automatic) return map_of(field, usual, step);
+    const std::string name = field.substr(0, field.find("_roughness"));
+    require_channel(inputs_, field, index_of(stated), name + "_channel", enum_name(stated));
+    return map_of(field, index_of(stated), step);
+}
+
+Sources::ColourMap Sources::colour_map_of(const SizedMap& map, const Colour& factor) const {
+    ColourMap colours{map, factor, {}, {}};
+    if (!map.codes(0, 0, 0)) return colours;
+    for (int c = 0; c < 3; ++c)
         for (std::size_t code = 0; code < 256; ++code) {
-            const float linear = colours.map.picture().linear(static_cast<std::uint8_t>(code));
-            const float scale = factor[static_cast<int>(c)];
-            colours.values[c][code] = std::min(linear * scale, 1.f);
-            colours.half_steps[c][code] = half_step(linear, 8, colours.map.is_srgb()) * scale;
+            const float linear = map.picture().linear(map.channel(c), static_cast<std::uint8_t>(code));
+            const auto channel = static_cast<std::size_t>(c);
+            colours.values[channel][code] = linear * factor[c];
+            colours.half_steps[channel][code] = half_step(linear, 8, map.is_srgb()) * factor[c];
         }
     return colours;
 }
 
 /// Tangent-space normals point up, so they are blue.
 void Sources::choose_normal() {
+    const NormalIn in = rules_.params.normal_in;
+    if (in == NormalIn::ag) {
+        constexpr int kAlpha = 3, kBackToGreen = -2;
+        require_channel(inputs_, "normal", kAlpha, "normal_in", enum_name(in));
+        normal_ = map_of("normal", kAlpha, kBackToGreen);
+        return;
+    }
     normal_ = map_of("normal", 0);
-    if (!normal_ || !normal_.picture().is_grey()) return;
-    normal_ = {};
-    warnings_.push_back("normal: is grey, so it holds heights and no normals; left out");
+    if (!normal_) return;
+    if (normal_.picture().is_grey()) {
+        normal_ = {};
+        warnings_.push_back("normal: is grey, so it holds heights and no normals; left out");
+    } else if (in == NormalIn::xyz && normal_.picture().varies(0) && !normal_.picture().varies(2)) {
+        warnings_.push_back(
+            "normal: blue is the same everywhere, as where two channels hold normals; if they do, state "
+            "normal_in xy (red and green) or ag (alpha and green)");
+    }
 }
 
 void Sources::choose_opacity() {
     const TextureParams& params = rules_.params;
-    opacity_ = map_of("opacity", 0);
+    opacity_ = map_of("opacity", 0, params.opacity_channel);
     if (opacity_ || params.alpha_is == AlphaIs::nothing) return;
     const Picture& colours = diffuse_.map.picture();
+    const bool has_alpha = colours.channels() > 3;
     const bool is_gloss = gloss_ && gloss_.picture().is_same(colours);
-    if (colours.channels() < 4 || is_gloss) return;
-    if (params.alpha_is != AlphaIs::opacity && !colours.varies(3)) return;
-    opacity_ = {colours, 3, width_, height_, params.wrap};
+    if (has_alpha && !is_gloss && (params.alpha_is == AlphaIs::opacity || colours.varies(3)))
+        opacity_ = {colours, 3, 1, width_, height_, params.wrap};
+    // A material says it of every picture; without alpha, that is opaque.
+    else if (params.alpha_is == AlphaIs::opacity && params.material.empty())
+        warnings_.push_back(std::string("alpha_is: is stated as opacity, but the alpha of diffuse is ") +
+                            (has_alpha ? "gloss" : "absent"));
+}
+
+void Sources::choose_emissive() {
+    emissive_ = map_of("emissive", 0);
+    if (!emissive_) return;
+    if (const double share = emissive_.picture().share_above_one(); share > 0)
+        warnings_.push_back(
+            "emissive: " + percent(share) +
+            " of texels are above 1, and stored as 1; divide the map by its largest value and "
+            "multiply emissive_factor by it");
 }
 
 void Sources::unit_values(const SizedMap& map, int x, int y, std::span<float> values) const {
@@ -132,9 +179,18 @@ float Sources::occlusion(int x, int y) const {
     return value;
 }
 
-/// The Blinn-Phong or Phong exponent that a gloss value stands for; < 0 where it stands for none.
+/// What a map's number is times gloss_factor.
+float Sources::gloss_value(float stored) const {
+    const float value = rules_.params.gloss_space == GlossSpace::srgb ? from_srgb(stored) : stored;
+    return value * static_cast<float>(rules_.params.gloss_factor);
+}
+
+/// The Blinn-Phong or Phong exponent that a gloss value stands for, a float at most, which is a mirror's; < 0
+/// where it stands for none.
 float Sources::exponent(float gloss) const {
-    if (gloss_reading_.is == GlossIs::power) return gloss * static_cast<float>(rules_.params.power_scale);
+    if (gloss_reading_.is == GlossIs::power)
+        return std::min(gloss * static_cast<float>(rules_.params.power_scale),
+                        std::numeric_limits<float>::max());
     if (gloss_reading_.is == GlossIs::power_log2)
         return static_cast<float>(
             pbr::exp_exact(std::numbers::ln2 *
@@ -145,13 +201,13 @@ float Sources::exponent(float gloss) const {
 float Sources::exponent_at(int x, int y) const {
     float gloss = 0;
     gloss_.read(0, x, y, {&gloss, 1});
-    return exponent(gloss * static_cast<float>(rules_.params.gloss_factor));
+    return exponent(gloss_value(gloss));
 }
 
 float Sources::lobe_exponent(int x, int y) const {
     float gloss = 1, n = 0;
     if (gloss_) gloss_.read(0, x, y, {&gloss, 1});
-    perceptual_roughness(gloss * static_cast<float>(rules_.params.gloss_factor), n);
+    perceptual_roughness(gloss_value(gloss), n);
     return n;
 }
 
@@ -181,8 +237,7 @@ float Sources::perceptual_roughness(float gloss, float& n) const {
 Sources::Lobe Sources::lobe_of(float gloss) const {
     Lobe lobe{gloss};
     float n = 0;
-    lobe.perceptual_roughness =
-        perceptual_roughness(gloss * static_cast<float>(rules_.params.gloss_factor), n);
+    lobe.perceptual_roughness = perceptual_roughness(gloss_value(gloss), n);
     if (!has_legacy_lobe()) return lobe;
     const auto kind = rules_.params.model == Model::phong ? pbr::PhongLobe::mirror : pbr::PhongLobe::blinn;
     lobe.mean = pbr::phong_albedo(norm_of(rules_.params.norm), kind, n).mean;
@@ -226,7 +281,7 @@ void Sources::read_lobes(int x, int y, LegacyRow& row) const {
         for (std::size_t i = 0; i < row.texels(); ++i) set(i, lobes_.front());
         return;
     }
-    const std::uint8_t* codes = lobes_.empty() ? nullptr : gloss_.codes(x, y);
+    const std::uint8_t* codes = lobes_.empty() ? nullptr : gloss_.codes(0, x, y);
     const auto step = static_cast<std::size_t>(gloss_.picture().channels());
     if (codes) {
         for (std::size_t i = 0; i < row.texels(); ++i) set(i, lobes_[codes[i * step]]);
@@ -251,30 +306,46 @@ void Sources::read_colours(const ColourMap& colours, int x, int y, Planes& value
     const std::size_t count = values.channels[0].size();
     const SizedMap& map = colours.map;
     if (!map) {
-        values.fill(glm::min(colours.factor, Colour(1)));
+        values.fill(colours.factor);
         return half_steps.fill(Colour(0));
     }
-    if (const std::uint8_t* codes = map.codes(x, y)) {
+    if (map.codes(0, x, y)) {
         const auto step = static_cast<std::size_t>(map.picture().channels());
-        for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint8_t* codes = map.codes(static_cast<int>(c), x, y);
             for (std::size_t i = 0; i < count; ++i) {
-                const std::uint8_t code = codes[i * step + c];
+                const std::uint8_t code = codes[i * step];
                 values.channels[c][i] = colours.values[c][code];
                 half_steps.channels[c][i] = colours.half_steps[c][code];
             }
+        }
         return;
     }
     const int bits = map.picture().bits();
-    const bool is_srgb = map.is_srgb();
+    const bool is_srgb = map.is_srgb(), is_half = map.picture().is_half();
     for (std::size_t c = 0; c < 3; ++c) {
         const float factor = colours.factor[static_cast<int>(c)];
         map.read(static_cast<int>(c), x, y, values.channels[c]);
         for (std::size_t i = 0; i < count; ++i) {
             float& value = values.channels[c][i];
-            half_steps.channels[c][i] = factor * half_step(value, bits, is_srgb);
-            value = std::clamp(value * factor, 0.f, 1.f);
+            half_steps.channels[c][i] =
+                factor * (is_half ? half_float_step(value) : half_step(value, bits, is_srgb));
+            value *= factor;
         }
     }
+}
+
+/// Colours that are 1 at most, as nothing reflects more.
+void Sources::read_albedos(const ColourMap& colours, int x, int y, Planes& values, Planes& half_steps,
+                           std::vector<std::uint8_t>& above_one) const {
+    read_colours(colours, x, y, values, half_steps);
+    const bool has_codes = !colours.map || colours.map.codes(0, x, y);
+    if (has_codes && pbr::max_channel(colours.factor) <= 1) return;
+    for (auto& channel : values.channels)
+        for (std::size_t i = 0; i < channel.size(); ++i) {
+            if (channel[i] > kAllLight) above_one[i] = 1;
+            channel[i] = std::min(channel[i], 1.f);
+        }
 }
 
 LegacyTexel Sources::texel(int x, int y) const {
@@ -284,12 +355,17 @@ LegacyTexel Sources::texel(int x, int y) const {
 }
 
 void Sources::read(int x, int y, LegacyRow& row) const {
-    read_colours(diffuse_, x, y, row.diffuse, row.diffuse_step);
+    std::ranges::fill(row.above_one, std::uint8_t{0});
+    read_albedos(diffuse_, x, y, row.diffuse, row.diffuse_step, row.above_one);
     read_lobes(x, y, row);
     if (rules_.params.model == Model::metallic_roughness) return reflect_metallic(x, y, row);
-    read_colours(specular_, x, y, row.f0, row.f0_step);
+    if (has_legacy_lobe()) {  // ks may be any number
+        read_colours(specular_, x, y, row.f0, row.f0_step);
+        return reflect_phong(row);
+    }
+    read_albedos(specular_, x, y, row.f0, row.f0_step, row.above_one);
     if (!has_specular()) row.f0.fill(Colour(static_cast<float>(rules_.params.dielectric_f0)));
-    has_legacy_lobe() ? reflect_phong(row) : reflect_specular(row);
+    reflect_specular(row);
 }
 
 /// pbr::reflected_from_specular of colours that were read in place.
@@ -352,12 +428,17 @@ void Sources::reflect_phong(LegacyRow& row) const {
 }
 
 void Sources::read_normals(int y, std::size_t to, Planes& normals) const {
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::span values(normals.channels[c].data() + to, static_cast<std::size_t>(width_));
+    const bool has_z = rules_.params.normal_in == NormalIn::xyz;
+    const auto count = static_cast<std::size_t>(width_);
+    for (std::size_t c = 0; c < (has_z ? 3u : 2u); ++c) {
+        const std::span values(normals.channels[c].data() + to, count);
         normal_.read(static_cast<int>(c), 0, y, values);
         // 8-bit maps put level at code 128 or 127.5; 255/2 is what most writers mean.
         for (float& value : values) value = value * 2.f - 1.f;
     }
+    const auto [nx, ny, nz] = normals.from(to);
+    for (std::size_t i = 0; !has_z && i < count; ++i)
+        nz[i] = std::sqrt(std::max(0.f, 1 - nx[i] * nx[i] - ny[i] * ny[i]));
 }
 
 void Sources::read_emissive(int y, std::size_t to, Planes& light) const {
@@ -374,6 +455,7 @@ LegacyRow::LegacyRow(int texels)
     for (Planes* planes : {&diffuse, &f0, &specular_albedo, &diffuse_step, &f0_step}) planes->resize(count);
     metallic.assign(count, -1.f);
     f0_clamped.resize(count);
+    above_one.resize(count);
 }
 
 LegacyTexel LegacyRow::operator[](std::size_t i) const {

@@ -205,6 +205,24 @@ TEST(Materials, OfANameAreItsPictures) {
     EXPECT_EQ(record["pixel"], "unorm8");
 }
 
+/// What a name's gloss map means may be stated alone; who says where gloss is says all of it.
+TEST(Materials, GlossIsAloneSaysHowTheMapIsRead) {
+    const Scene scene("crate_d.tga", targa(120, 100, 80));
+    scene.add("crate_s.tga", targa(40, 40, 40));
+    scene.add("crate_g.tga", targa(200, 200, 200));
+    const fs::path base = scene.path("crate"), product = scene.path("out.exr");
+    const auto gloss = [&](const std::vector<std::string>& stated) {
+        std::vector<std::string> arguments{"texture", "--source", base, "-o", product};
+        arguments.insert(arguments.end(), stated.begin(), stated.end());
+        const Outcome outcome = run_program(arguments);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return read_json(scene.path("out.exr.json"))["set"]["gloss"];
+    };
+    EXPECT_EQ(gloss({"--gloss-is", "perceptual_roughness"}),
+              Json({{"in", "gloss.r"}, {"is", "perceptual_roughness"}, {"reason", "stated by gloss_is"}}));
+    EXPECT_EQ(gloss({"--power", "20"}), Json({{"in", "none"}, {"reason", "stated by power"}}));
+}
+
 TEST(Materials, OfMtlMayBeMetallicByTheTexel) {
     const Scene scene("m.mtl", "newmtl m\nKd 1 .5 .25\nmap_Kd d.tga\nmap_Pr r.tga\nmap_Pm p.tga");
     scene.add("d.tga", targa(255, 255, 255));

@@ -87,8 +87,16 @@ TEST_F(CodedSource, GammaChunksAreBelieved) {
     put_be(gamma_1, 100000, 4);
     put_be(gamma_22, 45455, 4);
     const Buffer plain = png(1, 1, 0, bytes_of({128}));
-    EXPECT_EQ(read_both("g1.png", png_with(plain, "gAMA", gamma_1)).colour_space, "lin_rec709");
-    EXPECT_EQ(read_both("g22.png", png_with(plain, "gAMA", gamma_22)).colour_space, "g22_rec709");
+    const SourceImage linear = read_both("g1.png", png_with(plain, "gAMA", gamma_1));
+    EXPECT_EQ(linear.colour_space, "lin_rec709");
+    EXPECT_THAT(linear.colour_doubt, testing::AllOf(HasSubstr("8-bit"), HasSubstr("colour_space")));
+    EXPECT_EQ(read("g1.png", png_with(plain, "gAMA", gamma_1), true, "lin_rec709").colour_doubt, "");
+    const SourceImage power = read_both("g22.png", png_with(plain, "gAMA", gamma_22));
+    EXPECT_EQ(power.colour_space, "g22_rec709");
+    EXPECT_EQ(power.colour_doubt, "");
+    // Of 16 bits, linear codes are usual.
+    const Buffer deep = png(1, 1, 0, bytes_of({128, 0}));
+    EXPECT_EQ(read("g1.png", png_with(deep, "gAMA", gamma_1), true).colour_doubt, "");
 }
 
 TEST_F(CodedSource, ProfilesThatAreNotFollowedAreNamed) {
@@ -99,7 +107,9 @@ TEST_F(CodedSource, ProfilesThatAreNotFollowedAreNamed) {
                     testing::AllOf(HasSubstr("ICC profile \"Display P3\""), HasSubstr("colour_space")));
         EXPECT_EQ(read("p3.jpg", p3, as_codes, "srgb").colour_doubt, "");
         EXPECT_EQ(read("srgb.jpg", srgb, as_codes).colour_doubt, "");
+        EXPECT_FALSE(read("srgb.jpg", srgb, as_codes).colour_space_assumed);
         EXPECT_EQ(read("none.jpg", grey_jpeg(), as_codes).colour_doubt, "");
+        EXPECT_TRUE(read("none.jpg", grey_jpeg(), as_codes).colour_space_assumed);
     }
 }
 

@@ -110,6 +110,34 @@ TEST_F(ExrSource, BelievesChromaticities) {
               std::string::npos);
 }
 
+/// Alpha comes as stored: below 0 it is 0, above 1 it stays, since exponents may be kept there.
+TEST_F(ExrSource, KeepsAlphaWhereItIsAskedFor) {
+    const auto value = [](const std::string& channel, int x, int y) {
+        constexpr std::array kAlpha{.25f, 40.f, -1.f, 1.f};
+        return channel.back() == 'A' ? kAlpha[static_cast<std::size_t>(x)] : coded(channel, x, y);
+    };
+    const std::vector<float> expected{.25f, 40, 0, 1};
+    for (const std::vector<std::string>& channels :
+         {std::vector<std::string>{"A", "B", "G", "R"}, {"A", "Y"}, {"x.A", "x.B", "x.G", "x.R"}}) {
+        ExrFixture fixture{.width = 4, .height = 2, .channels = channels, .type = "float", .value = value};
+        EXPECT_EQ(read(fixture).image.channel_count(), 3);
+        const SourceImage source = read(fixture, {.with_alpha = true});
+        ASSERT_EQ(source.image.channels, (std::vector<std::string>{"R", "G", "B", "A"})) << channels[0];
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 4; ++x) {
+                const float* texel = source.image.texel(0, 0, y, x);
+                EXPECT_EQ(texel[0], coded(channels.back(), x, y));
+                EXPECT_EQ(texel[3], expected[static_cast<std::size_t>(x)]);
+            }
+    }
+    EXPECT_EQ(read({.width = 4, .height = 2}, {.with_alpha = true}).image.channel_count(), 3);
+}
+
+TEST_F(ExrSource, TellsHalvesFromFloats) {
+    EXPECT_TRUE(read({.type = "half"}).is_half);
+    EXPECT_FALSE(read({.type = "float"}).is_half);
+}
+
 TEST_F(ExrSource, CountsLuminanceWhereTheFileStatesIt) {
     const SourceImage source = read({.white_luminance = 250});
     EXPECT_EQ(source.units, "cd/m^2");

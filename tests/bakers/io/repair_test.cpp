@@ -13,7 +13,8 @@ namespace {
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-SourceImage read_row(const std::vector<float>& rgb, const std::string& working = "lin_rec709") {
+SourceImage read_row(const std::vector<float>& rgb, const std::string& working = "lin_rec709",
+                     Infinity infinity = Infinity::peak) {
     TempDir dir;
     write_exr(dir / "a.exr", {.width = static_cast<int>(rgb.size() / 3),
                               .height = 1,
@@ -22,7 +23,7 @@ SourceImage read_row(const std::vector<float>& rgb, const std::string& working =
                                   const std::size_t c = name == "R" ? 0 : name == "G" ? 1 : 2;
                                   return rgb[3 * static_cast<std::size_t>(x) + c];
                               }});
-    return read_source({dir / "a.exr", "auto", working});
+    return read_source({.path = dir / "a.exr", .working_space = working, .infinity = infinity});
 }
 
 TEST(Repair, NaNAndNegativeInfinityBecomeZero) {
@@ -37,6 +38,14 @@ TEST(Repair, InfinityBecomesTheLargestOfItsChannel) {
     const SourceImage source = read_row({kInf, 5, kInf, 7, kInf, kInf, 2, 100, kNaN});
     EXPECT_EQ(source.image.levels[0].texels, (std::vector<float>{7, 5, 0, 7, 100, 0, 2, 100, 0}));
     EXPECT_EQ(source.repairs.non_finite, 3u);
+}
+
+TEST(Repair, InfinityThatIsMeantBecomesTheLargestFloat) {
+    constexpr float kMost = std::numeric_limits<float>::max();
+    const SourceImage source =
+        read_row({kInf, 5, -kInf, 7, kInf, kNaN}, "lin_rec709", Infinity::largest_float);
+    EXPECT_EQ(source.image.levels[0].texels, (std::vector<float>{kMost, 5, 0, 7, kMost, 0}));
+    EXPECT_EQ(source.repairs.non_finite, 2u);
 }
 
 TEST(Repair, NegativesBecomeZeroAndAreReported) {

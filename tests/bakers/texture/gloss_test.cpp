@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "bakers/texture/gloss.hpp"
 #include "pbr/legacy/exponent.hpp"
 #include "tests/bakers/texture/fixtures.hpp"
@@ -85,11 +87,95 @@ TEST(Gloss, IsItsFactorWhereItIsConstant) {
         EXPECT_EQ(baked.set()["gloss"]["in"], "constant");
         EXPECT_EQ(baked.set()["gloss"]["is"], "smoothness");
     }
-    // A picture whose alpha is 1 need not store it.
+    // A glTF material's picture whose alpha is 1 need not store it.
     params.gloss_in = GlossIn::specular_alpha;
+    params.source = "set.gltf";
     Inputs inputs = set_with_alpha();
     inputs["specular"] = source(16, 16, 3, 8, [](int, int) { return Rgba{.05f, .05f, .05f, 1}; });
     EXPECT_NEAR(roughness_at(bake_set(params, inputs, PixelType::float32), 12), .3, 1e-6);
+}
+
+std::string refusal(const TextureParams& params, const Inputs& inputs) {
+    try {
+        bake_set(params, inputs, PixelType::float32);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::unreadable_input);
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(Gloss, AStatedAlphaThatIsAbsentIsAnError) {
+    Inputs inputs = set_with_alpha();
+    for (const char* field : {"specular", "normal"})
+        inputs[field] = source(16, 16, 3, 8, [](int, int) { return Rgba{.05f, .05f, .05f, 1}; });
+    for (const auto& [in, field] : {std::pair(GlossIn::specular_alpha, "specular"),
+                                    {GlossIn::diffuse_alpha, "diffuse"},
+                                    {GlossIn::normal_alpha, "normal"}}) {
+        TextureParams params = defaults();
+        params.gloss_in = in;
+        EXPECT_THAT(refusal(params, inputs),
+                    testing::AllOf(HasSubstr("gloss_in: found \"" + std::string(enum_name(in)) + "\""),
+                                   HasSubstr(std::string("picture of ") + field + " has no alpha")));
+    }
+}
+
+/// A packed map: smoothness, its exponents' and others', one a channel.
+TEST(Gloss, IsTheChannelThatIsStated) {
+    Inputs inputs = set_with_alpha();
+    inputs["gloss"] = source(16, 16, 4, 0, [](int x, int) {
+        return Rgba{.1f, .2f, static_cast<float>(x) / 15, .7f};
+    });
+    TextureParams params = defaults();
+    const std::array expected{.9, .9, .8, 3 / 15., .3};  // auto: red
+    for (const Channel channel : {Channel::automatic, Channel::r, Channel::g, Channel::b, Channel::a}) {
+        params.gloss_channel = channel;
+        const Baked baked = bake_set(params, inputs, PixelType::float32);
+        EXPECT_NEAR(roughness_at(baked, 12), expected[static_cast<std::size_t>(channel)], 1e-6);
+    }
+    EXPECT_EQ(bake_set(params, inputs, PixelType::float32).set()["gloss"]["in"], "gloss.a");
+    inputs["gloss"] = source(16, 16, 3, 0, [](int, int) { return Rgba{.1f, .2f, .3f, 1}; });
+    EXPECT_THAT(refusal(params, inputs), HasSubstr("gloss_channel: found \"a\""));
+    inputs.erase("gloss");
+    EXPECT_THAT(refusal(params, inputs), HasSubstr("gloss_channel: found \"a\""));
+}
+
+TEST(Gloss, StoredAsSrgbIsDecoded) {
+    Inputs inputs = set_with_alpha();
+    inputs["gloss"] = source(16, 16, 3, 0, [](int x, int) {
+        const float code = static_cast<float>(x) / 15;  // 51 / 255 a step
+        return Rgba{code, code, code, 1};
+    });
+    inputs["gloss"].bits = 8;
+    inputs["gloss"].colour_space = "raw";
+    TextureParams params = defaults();
+    params.gloss_space = GlossSpace::srgb;
+    const Baked baked = bake_set(params, inputs, PixelType::float32);
+    EXPECT_NEAR(roughness_at(baked, 0), 1, 1e-6);
+    EXPECT_NEAR(roughness_at(baked, 12), 1 - std::pow((.8 + .055) / 1.055, 2.4), 1e-6);
+    EXPECT_NEAR(roughness_at(baked, 15), 0, 1e-6);
+}
+
+/// Readers turn infinity into the largest float, which is as much a mirror's.
+TEST(Gloss, AnInfiniteExponentIsAMirrors) {
+    constexpr float kInfinite = std::numeric_limits<float>::max();
+    Inputs inputs = set_with_alpha();
+    inputs["gloss"] = source(16, 16, 3, 0, [](int x, int) {
+        return Rgba{x < 8 ? 10.f : kInfinite, 0, 0, 1};
+    });
+    for (const Model model : {Model::specular_gloss, Model::blinn_phong, Model::phong})
+        for (const double scale : {.5, 1., 128.}) {
+            TextureParams params = defaults();
+            params.model = model;
+            params.gloss_is = GlossIs::power;
+            params.power_scale = scale;
+            const Baked baked = bake_set(params, inputs, PixelType::float32);
+            const double n = 10 * scale * (model == Model::phong ? 4 : 1);
+            EXPECT_NEAR(roughness_at(baked, 3), std::pow(2 / (n + 2), .25), 1e-6);
+            EXPECT_LT(roughness_at(baked, 12), 1e-9);
+            EXPECT_NEAR(baked.set()["exponent_max"].get<double>(), 10 * scale, 1e-5);
+            EXPECT_TRUE(std::isfinite(baked.figure("energy_error")));
+        }
 }
 
 TEST(Gloss, NamesTellPolarity) {
