@@ -56,10 +56,7 @@ void warn(const Sources& sources, const Survey& survey, const Findings& found, P
     if (found.low_confidence > .5)
         product.warnings.push_back("the data don't tell metal from dielectric in " +
                                    percent(found.low_confidence) + " of texels; state surface, or calibrate");
-    if (survey.calibration.kind == Calibration::Kind::statistics)
-        product.warnings.push_back(
-            "specular was scaled so that its median dielectric reflects the usual f0; state "
-            "surface or calibrate none if it is f0 already");
+    if (!survey.calibration.warning.empty()) product.warnings.push_back(survey.calibration.warning);
 }
 
 /// Of lobes with Frostbite's f90 below 1, the largest f0 in a channel over f90: all of it in one channel.

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <numeric>
 
+#include "bakers/parse/materials.hpp"
 #include "bakers/texture/names.hpp"
 #include "bakers/texture/rules.hpp"
 
@@ -60,6 +61,8 @@ constexpr std::array<SurfaceWord, 44> kWords{{
     {"brass", true, {.887f, .789f, .434f}},
     {"gold", true, {1.f, .766f, .336f}},
 }};
+
+constexpr double kDoubtful = .5;  ///< trust in what doubtful maps tell
 
 /// Sums over a row; rows are added in order, so that results don't depend on threads.
 struct RowSums {
@@ -116,6 +119,46 @@ Statistics statistics_of(const Sources& sources, Context& context) {
     return statistics;
 }
 
+/// Of texels evenly spread, the median f0 of those that have a diffuse colour (0 where they are few) and the
+/// mean and the largest f0.
+struct F0Sample {
+    double dielectric_median = 0, mean = 0, largest = 0;
+};
+
+F0Sample sample_f0(const Sources& sources) {
+    constexpr int kSide = 128;
+    const int step_x = std::max(1, sources.width() / kSide), step_y = std::max(1, sources.height() / kSide);
+    const auto least_diffuse = static_cast<float>(sources.params().dielectric_f0);
+    Histogram histogram{};
+    F0Sample sample;
+    std::size_t count = 0;
+    for (int y = step_y / 2; y < sources.height(); y += step_y)
+        for (int x = step_x / 2; x < sources.width(); x += step_x, ++count) {
+            const pbr::Reflected<float> texel = sources.texel(x, y).reflected;
+            const float f0 = std::clamp(pbr::mean_channel(texel.f0), 0.f, 1.f);
+            sample.mean += static_cast<double>(f0);
+            sample.largest = std::max(sample.largest, static_cast<double>(pbr::max_channel(texel.f0)));
+            if (pbr::mean_channel(texel.diffuse) >= least_diffuse)
+                ++histogram[static_cast<std::size_t>(f0 * 1024)];
+        }
+    sample.mean /= static_cast<double>(count);
+    sample.dielectric_median = median_of(histogram, count / 20 + 1);
+    return sample;
+}
+
+/// What speaks against a specular-gloss set's f0: its name, or numbers that no surface has.
+enum class Doubt { none, no_dielectric, no_metal, too_dim };
+
+Doubt doubt_f0(const Sources& sources, const SurfaceWord* word) {
+    // Frostbite's largest dielectric f0, beyond diamond's; water's; and a third of iron's.
+    constexpr double kLargestDielectric = .16, kWater = .02, kLeastMetal = .2;
+    const F0Sample sample = sample_f0(sources);
+    if (word && !word->is_metal && sample.dielectric_median > kLargestDielectric) return Doubt::no_dielectric;
+    if (word && word->is_metal && sample.mean < kLeastMetal) return Doubt::no_metal;
+    if (sources.has_specular() && sample.largest > 0 && sample.largest < kWater) return Doubt::too_dim;
+    return Doubt::none;
+}
+
 }  // namespace
 
 const SurfaceWord* surface_word(const std::string& path) {
@@ -146,9 +189,32 @@ Calibration find_calibration(const Sources& sources, Context& context) {
     const SurfaceWord* word = surface_word(params.material);
     if (!word) word = surface_word(name_of_set(params));
     const std::optional<Colour>& ruled = sources.rules().f0;
-    const bool is_legacy = params.model != Model::specular_gloss;
-    const bool wanted = params.calibrate == Calibrate::library ||
-                        (params.calibrate == Calibrate::automatic && (is_legacy || ruled));
+    const bool is_legacy = params.model != Model::specular_gloss,
+               is_automatic = params.calibrate == Calibrate::automatic;
+    bool wanted = params.calibrate == Calibrate::library || (is_automatic && (is_legacy || ruled));
+    if (!wanted && is_automatic && params.surface == SurfaceIs::automatic) {
+        // Materials of a glTF file are made as f0; maps beside each other needn't be.
+        const bool is_painted = !parse::has_material_extension(params.source);
+        const Doubt doubt = doubt_f0(sources, is_painted ? word : nullptr);
+        if (doubt == Doubt::no_dielectric) {
+            wanted = true;
+            result.warning = "specular reflects more than a dielectric can, but the name says " +
+                             std::string(word->word) +
+                             ": it was scaled to that; state calibrate none if it is f0";
+        } else if (doubt == Doubt::no_metal) {
+            result.trust = kDoubtful;
+            result.warning =
+                "the name says " + std::string(word->word) +
+                ", but specular reflects less than a metal does; state surface metal, or dielectric "
+                "if it is painted or calibrate none if it is f0";
+        } else if (doubt == Doubt::too_dim) {
+            result.trust = kDoubtful;
+            result.warning =
+                "specular reflects less than water everywhere, which no surface does; state calibrate "
+                "library if it was "
+                "painted by eye, or surface";
+        }
+    }
     if (params.surface == SurfaceIs::any || (params.surface == SurfaceIs::automatic && !wanted))
         word = nullptr;
     bool is_metal = params.surface == SurfaceIs::metal;
@@ -176,6 +242,10 @@ Calibration find_calibration(const Sources& sources, Context& context) {
     } else if (statistics.dielectric_median > params.dielectric_f0 + 2 * params.f0_tolerance) {
         result.kind = Calibration::Kind::statistics;
         result.scale = params.dielectric_f0 / statistics.dielectric_median;
+        result.trust = kDoubtful;
+        result.warning =
+            "specular was scaled so that its median dielectric reflects the usual f0; state "
+            "surface or calibrate none if it is f0 already";
     }
     return result;
 }

@@ -26,6 +26,8 @@ struct Calibration {
     double scale = 1;                   ///< on f0: of a metal in the mean, else of every texel
     Colour metal{0};                    ///< Kind::metal: f0 of a texel as bright as the mean
     double brightness = 0;              ///< Kind::metal: mean of diffuse + f0 over the set
+    double trust = 1;     ///< in what diffuse and f0 tell of metal: 1, or .5 where they are doubtful
+    std::string warning;  ///< why specular was scaled, or is doubtful; or ""
 
     /// The texel as it is converted: f0 at most 1; a metal has no diffuse, and the picture of both maps.
     pbr::Reflected<float> operator()(const pbr::Reflected<float>& texel) const;
@@ -34,7 +36,8 @@ struct Calibration {
 /// "none", "metal", "dielectric", "statistics".
 std::string_view kind_name(Calibration::Kind kind);
 
-/// Finds a set's calibration; looks at all texels where the job asks for one.
+/// Finds a set's calibration; looks at all texels where the job asks for one, or where a name contradicts
+/// maps that are said to be f0.
 Calibration find_calibration(const Sources& sources, Context& context);
 
 /// Which way green points: correlation of d(slope x)/dy with d(slope y)/dx, as if y went up, over up to 512

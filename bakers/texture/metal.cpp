@@ -34,16 +34,15 @@ void lower(const pbr::ReflectedPlanes& reflected, float largest_error, std::size
 }  // namespace
 
 MetalEstimator::MetalEstimator(const Sources& sources, const Calibration& calibration)
-    : prior_{static_cast<float>(sources.params().dielectric_f0),
+    : trust_(static_cast<float>(calibration.trust)),
+      prior_{static_cast<float>(sources.params().dielectric_f0),
              static_cast<float>(sources.params().f0_tolerance), .01f},
       coupling_(sources.coupling()),
       largest_error_(sources.visible_error()),
       has_residual_(layout_of(sources).has_residual),
       is_stated_(sources.params().model == Model::metallic_roughness),
       regularises_(sources.params().regularise && calibration.surface == "any" && !is_stated_) {
-    constexpr float kGuessedScale = .5f;
     if (calibration.surface != "any") told_ = calibration.surface == "metal" ? 1.f : 0.f;
-    if (calibration.kind == Calibration::Kind::statistics) trust_ = kGuessedScale;
 }
 
 void MetalEstimator::operator()(const LegacyRow& row, float* metallic, float* confidence) const {

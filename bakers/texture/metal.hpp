@@ -22,7 +22,7 @@ class MetalEstimator {
     void limit(const LegacyRow& row, float* metallic, float* confidence) const;
 
     float told_ = -1;  ///< metallic of the whole set, where it is known; else < 0
-    float trust_ = 1;
+    float trust_;
     pbr::MetallicPrior<float> prior_;
     pbr::DiffuseCoupling coupling_;
     float largest_error_;

@@ -338,6 +338,52 @@ TEST(Texture, ConcreteIsNoMetalAndSteelIsHoweverTheirSpecularWasPainted) {
     }
 }
 
+/// A set whose maps are said to be f0, painted: a diffuse colour, and this much grey specular, linear.
+Inputs painted_set(float specular) {
+    Inputs inputs;
+    inputs["diffuse"] = source(16, 16, 3, 8, [](int x, int) {
+        return Rgba{.2f + static_cast<float>(x) * .01f, .2f, .2f, 1};
+    });
+    inputs["specular"] = source(16, 16, 3, 0, [&](int, int) {
+        return Rgba{specular, specular, specular, 1};
+    });
+    return inputs;
+}
+
+TEST(Texture, NamesThatContradictF0AreHeard) {
+    TextureParams params = defaults();
+    params.diffuse = "concrete01_d.png";
+    const Baked concrete = bake_set(params, painted_set(.3f), PixelType::float32);
+    EXPECT_EQ(concrete.set()["mean_metallic"], 0);
+    EXPECT_THAT(concrete.product.warnings, testing::Contains(testing::HasSubstr("the name says concrete")));
+    EXPECT_NEAR(concrete.set()["specular_scale"], .04 / .3, 1e-3);
+    params.calibrate = Calibrate::none;
+    EXPECT_EQ(bake_set(params, painted_set(.3f), PixelType::float32).set()["specular_scale"], 1);
+    params.calibrate = Calibrate::automatic;
+    EXPECT_EQ(bake_set(params, painted_set(.05f), PixelType::float32).set()["specular_scale"], 1);
+    params.source = "scene.gltf";  // made as f0
+    EXPECT_EQ(bake_set(params, painted_set(.3f), PixelType::float32).set()["specular_scale"], 1);
+
+    params.source = "";
+    params.diffuse = "steel_d.png";
+    const Baked steel = bake_set(params, painted_set(.05f), PixelType::float32);
+    EXPECT_LT(steel.set()["mean_confidence"], .5);
+    EXPECT_THAT(steel.product.warnings, testing::Contains(testing::HasSubstr("the name says steel")));
+}
+
+/// Water reflects .02, and nothing solid less: what is below everywhere wasn't measured, and isn't silently
+/// taken for a dielectric's.
+TEST(Texture, SpecularBelowWatersEverywhereIsDoubted) {
+    for (const float specular : {.019f, .01f}) {
+        const Baked dim = bake_set(defaults(), painted_set(specular), PixelType::float32);
+        EXPECT_LT(dim.set()["mean_confidence"], .5);
+        EXPECT_THAT(dim.product.warnings, testing::Contains(testing::HasSubstr("less than water")));
+    }
+    const Baked usual = bake_set(defaults(), painted_set(.04f), PixelType::float32);
+    EXPECT_GT(usual.set()["mean_confidence"], .5);
+    EXPECT_THAT(usual.product.warnings, testing::Not(testing::Contains(testing::HasSubstr("water"))));
+}
+
 TEST(Texture, DoubtsGlossThatIsLowWhereSpecularIsBright) {
     for (const bool is_rough : {false, true}) {
         TextureParams params = defaults();
