@@ -204,6 +204,14 @@ Layout layout_of(const Sources& sources) {
     return make_layout(sources.params(), sources.has_normal(), sources.has_opacity(), sources.may_be_dim());
 }
 
+bool has_pictures(const TextureParams& params) {
+    const std::array pictures{&params.diffuse,  &params.specular,   &params.gloss,
+                              &params.normal,   &params.occlusion,  &params.opacity,
+                              &params.emissive, &params.base_color, &params.metallic_roughness,
+                              &params.metallic};
+    return std::ranges::any_of(pictures, [](const std::string* path) { return !path->empty(); });
+}
+
 std::vector<std::string> image_names(const TextureParams& params) {
     std::vector<std::string> names;
     for (const PackedImage& image : make_layout(params, !params.normal.empty(), false, false).images)

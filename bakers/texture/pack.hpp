@@ -69,6 +69,8 @@ struct Layout {
 
 /// The layout of a set.
 Layout layout_of(const Sources& sources);
+/// Whether a set is more than factors, its only texel.
+bool has_pictures(const TextureParams& params);
 /// Names of the images that a set may have, before its pictures are known.
 std::vector<std::string> image_names(const TextureParams& params);
 
