@@ -409,13 +409,22 @@ void Sources::reflect_phong(LegacyRow& row) const {
         for (std::size_t i = 0; i < count; ++i) albedo[i] = ks[i] * mean[i];
     }
     const auto [r, g, b] = std::as_const(row.specular_albedo).from(0);
+    constexpr float kRough = .5f;
     std::vector<float> grey(count), scale(count);
     for (std::size_t i = 0; i < count; ++i) grey[i] = (r[i] + g[i] + b[i]) / 3.f;
     pbr::f0_from_mean_albedo(grey.data(), row.perceptual_roughness.data(), scattering, count, scale.data(),
                              row.f0_clamped.data());
     for (std::size_t i = 0; i < count; ++i) scale[i] = grey[i] > 0 ? scale[i] / grey[i] : 0;
-    for (std::size_t i = 0; i < count; ++i)
-        row.f0_clamped[i] |= std::max(r[i], std::max(g[i], b[i])) * scale[i] > 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Colour albedo(r[i], g[i], b[i]);
+        const float p = row.perceptual_roughness[i];
+        // Where little light is lost between facets, all of it is as good as grey.
+        if (p > kRough && scattering == pbr::Scattering::multiple && pbr::max_channel(albedo) > grey[i])
+            scale[i] *= static_cast<float>(pbr::coloured_f0_scale(
+                pbr::Vec3<double>(albedo) * static_cast<double>(scale[i]), static_cast<double>(grey[i]),
+                pbr::mean_albedo_ggx(static_cast<double>(p)), scattering));
+        row.f0_clamped[i] |= pbr::max_channel(albedo) * scale[i] > 1;
+    }
     for (std::size_t c = 0; c < 3; ++c) {
         const float* albedo = row.specular_albedo.channels[c].data();
         float* f0 = row.f0.channels[c].data();

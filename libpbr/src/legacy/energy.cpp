@@ -65,4 +65,29 @@ SolvedF0 f0_from_mean_albedo(double mean_albedo, const MeanAlbedo& lobe, Scatter
     return {std::clamp(piece.f0_of(F_avg), 0., 1.), false};
 }
 
+double coloured_f0_scale(const Vec3<double>& f0, double mean_albedo, const MeanAlbedo& lobe,
+                         Scattering scattering) {
+    const auto albedo_at = [&](double scale) {
+        const auto scaled = [&](int c) { return std::min(1., f0[c] * scale); };
+        const double f90 = std::min(1., kF90Slope * (scaled(0) + scaled(1) + scaled(2)) / 3);
+        double albedo = 0;
+        for (int c = 0; c < 3; ++c) albedo += mean_specular_albedo(scaled(c), f90, lobe, scattering) / 3;
+        return albedo;
+    };
+    // Regula falsi between nothing and too much, with Illinois' halving, so that neither end stays.
+    constexpr int kTurns = 20;
+    constexpr double kNear = 1e-4;
+    double low = 0, high = 1, below = -mean_albedo, above = albedo_at(1) - mean_albedo;
+    if (above <= kNear * mean_albedo) return 1;
+    for (int turn = 0; turn < kTurns; ++turn) {
+        const double scale = (low * above - high * below) / (above - below),
+                     off = albedo_at(scale) - mean_albedo;
+        if (std::abs(off) <= kNear * mean_albedo) return scale;
+        (off < 0 ? low : high) = scale;
+        (off < 0 ? below : above) = off;
+        (off < 0 ? above : below) /= 2;
+    }
+    return high;
+}
+
 }  // namespace pbr

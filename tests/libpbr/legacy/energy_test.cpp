@@ -1,4 +1,5 @@
 #include "pbr/legacy/energy.hpp"
+#include "pbr/legacy/specular_gloss.hpp"
 
 #include <gtest/gtest.h>
 
@@ -120,6 +121,30 @@ TEST(LegacyEnergy, BlinnPhongKeepsItsMeanAlbedo) {
                     mean_specular_albedo(solved.f0, by_quadrature(alpha), Scattering::multiple);
                 EXPECT_NEAR(found / wanted, 1, .02) << n << " " << ks;
                 EXPECT_NEAR(found / wanted, 1, 1e-3) << n << " " << ks;
+            }
+}
+
+/// Sums single scattering and what bounces between facets channel by channel, with the colour's own f90.
+TEST(LegacyEnergy, ColouredLobesKeepTheMeanOfTheirChannels) {
+    for (const double roughness : {.5, .64, .8, 1.})
+        for (const Vec3<double>& colour :
+             {Vec3<double>(.8, .1, .1), Vec3<double>(.5, .4, .3), Vec3<double>(0, 0, 1)})
+            for (const double mean : {.05, .2, .3}) {
+                const MeanAlbedo lobe = mean_albedo_ggx(roughness);
+                const double grey = f0_from_mean_albedo(mean, lobe, Scattering::multiple).f0;
+                const Vec3<double> f0 = colour * (grey / mean_channel(colour));
+                const double scale = coloured_f0_scale(f0, mean, lobe, Scattering::multiple);
+                const double f90 = std::min(1., 50 * .33 * 3 * mean_channel(f0 * scale));
+                double found = 0;
+                for (int c = 0; c < 3; ++c)
+                    found +=
+                        mean_specular_albedo(std::min(1., f0[c] * scale), f90, lobe, Scattering::multiple) /
+                        3;
+                if (max_channel(f0) * scale < 1) {
+                    EXPECT_NEAR(found / mean, 1, 1e-3);
+                } else {
+                    EXPECT_LT(found, mean * 1.001);
+                }
             }
 }
 

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "pbr/numerics/vector.hpp"
+
 namespace pbr {
 
 /// Cosine-weighted means of DirectionalAlbedo over the hemisphere, 2 integral E mu dmu and the same of Fc.
@@ -43,6 +45,13 @@ struct SolvedF0 {
 /// either side of the f0 where f90 reaches 1). mean_specular_albedo of it is within 1e-6 relative of
 /// mean_albedo, unless clamped.
 SolvedF0 f0_from_mean_albedo(double mean_albedo, const MeanAlbedo& lobe, Scattering scattering);
+
+/// What the f0 of a coloured lobe, solved as a grey one's, is multiplied by so that the mean of its channels'
+/// albedos is `mean_albedo`, at most 1: between facets a saturated lobe gets brighter than a grey one. f90 is
+/// Frostbite's of the colour. f0 >= 0; channels above 1 count as 1, and what can't be reached then is left.
+/// Relative error of the albedo below 1e-3.
+double coloured_f0_scale(const Vec3<double>& f0, double mean_albedo, const MeanAlbedo& lobe,
+                         Scattering scattering);
 
 /// The same of `count` lobes, each with its mean albedo and perceptual roughness, in float: bit for bit, on
 /// every CPU, what f0_from_mean_albedo of mean_albedo_ggx gives. clamped is 0 or 1. Outputs may not overlap
