@@ -12,7 +12,7 @@ namespace {
 class Tag {
   public:
     explicit Tag(Bytes bytes) : bytes_(bytes) {}
-    std::string type() const { return text_at(bytes_, 0, 4); }
+    std::string type() const { return has(4) ? text_at(bytes_, 0, 4) : ""; }
     bool has(std::size_t size) const { return size <= bytes_.size(); }
     std::uint32_t number(std::size_t at, int bytes) const {
         std::uint32_t value = 0;
@@ -31,9 +31,9 @@ class Tag {
 std::optional<Tag> find_tag(Bytes profile, std::string_view signature) {
     constexpr std::size_t kHeader = 128, kEntry = 12;
     const Tag whole(profile);
-    const std::uint64_t count = std::min<std::uint64_t>(whole.number(kHeader, 4), profile.size() / kEntry);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t entry = kHeader + 4 + kEntry * i;
+    const std::size_t count = whole.number(kHeader, 4);
+    for (std::size_t i = 0, entry = kHeader + 4; i < count && whole.has(entry + kEntry);
+         ++i, entry += kEntry) {
         if (text_at(profile, entry, 4) != signature) continue;
         const std::uint64_t at = whole.number(entry + 4, 4), size = whole.number(entry + 8, 4);
         if (at + size <= profile.size()) return Tag(profile.subspan(at, size));
