@@ -246,6 +246,12 @@ class Conversion {
         // No scene is larger; squares stay finite.
         result_.span_m.far = std::min(result_.span_m.far, kFarthest_m);
         result_.span_m.near = std::min(result_.span_m.near, .05 * kFarthest_m);
+        // Nobody stands inside a sphere; one that reaches no further is looked at from near by.
+        if (light_.type == LightType::sphere && light_.radius != 0) {
+            const double surface = std::abs(light_.radius) * anchor_.unit_m;
+            result_.span_m.near = std::max(result_.span_m.near, surface);
+            result_.span_m.far = std::max(result_.span_m.far, 2 * surface);
+        }
         if (params_.far_m > 0) result_.span_m.far = params_.far_m;
         if (params_.near_m > 0) result_.span_m.near = params_.near_m;
         if (result_.span_m.near < result_.span_m.far) return;

@@ -119,6 +119,8 @@ LegacyLight read_light(const Row& row, int line) {
                                             : pbr::SpotLaw::hard;
         spot.exponent = row.number("spot_exponent", 2);
     }
+    if (const auto mistake = mistake_of_sizes(light))
+        row.refuse(std::string(mistake->field), std::string(mistake->allowed));
     return light;
 }
 

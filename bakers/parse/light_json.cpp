@@ -145,6 +145,7 @@ LegacyLight read_light(const JsonFields& fields, LightUnit file_unit, ColourEnco
     if (light.type != LightType::directional && light.type != LightType::ambient)
         light.falloff = read_falloff(fields, light.unit);
     if (light.type == LightType::spot) light.spot = read_spot(fields);
+    if (const auto mistake = mistake_of_sizes(light)) fields.refuse(mistake->field, mistake->allowed);
     return light;
 }
 

@@ -145,6 +145,16 @@ std::optional<LightUnit> light_unit(std::string_view name) {
     return {};
 }
 
+std::optional<PlainMistake> mistake_of_sizes(const LegacyLight& light) {
+    constexpr std::string_view kAllowed = "a number from 0 on";
+    if (light.radius < 0) return PlainMistake{"radius", kAllowed};
+    if (light.width < 0) return PlainMistake{"width", kAllowed};
+    if (light.height < 0) return PlainMistake{"height", kAllowed};
+    if (light.spot && light.spot->outer_rad < 0) return PlainMistake{"outer_deg", kAllowed};
+    if (light.spot && light.spot->inner_rad < 0) return PlainMistake{"inner_deg", kAllowed};
+    return {};
+}
+
 LightUnit unit_for(LightType type, LightUnit unit) {
     const bool is_far = type == LightType::directional || type == LightType::ambient;
     if (unit == LightUnit::relative) return unit;

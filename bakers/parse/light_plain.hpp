@@ -30,6 +30,9 @@ struct PlainMistake {
 /// A range beside no name is linear's where the unit is relative, and ends an inverse square elsewhere.
 std::optional<PlainMistake> make_falloff(PlainFalloff plain, LightUnit unit, pbr::Falloff& law);
 
+/// What is wrong with a light's sizes: none is below 0, nor is a cone's angle.
+std::optional<PlainMistake> mistake_of_sizes(const LegacyLight& light);
+
 /// "point", "spot", …; false for another word.
 bool read_light_type(std::string_view word, LightType& type);
 

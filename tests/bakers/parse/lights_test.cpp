@@ -373,6 +373,9 @@ TEST(PlainLights, RefuseWhatHasNoMeaning) {
     EXPECT_THAT(of_light(R"("bogus": 3)"),
                 HasSubstr("a.json#/lights/1/bogus: unknown key; allowed: name, type, unit"));
     EXPECT_THAT(of_light(R"("outer_degrees": 3)"), HasSubstr("did you mean \"outer_deg\"?"));
+    EXPECT_THAT(of_light(R"("type": "sphere", "radius": -2)"),
+                HasSubstr("a.json#/lights/1/radius: found '-2'; allowed: a number from 0 on"));
+    EXPECT_THAT(of_light(R"("type": "spot", "outer_deg": -10)"), HasSubstr("/outer_deg: found '-10'"));
     EXPECT_THAT(of_light(R"("falloff": {"kind": "inverse", "radius": 3})"),
                 HasSubstr("a.json#/lights/1/falloff/radius: unknown key; allowed: kind, constant"));
     EXPECT_THAT(of_light(R"("falloff": {"kind": "inverse"}, "range": 3)"),
