@@ -4,14 +4,10 @@
 #include <cmath>
 
 namespace pbrbake {
-namespace {
 
-/// IEC 61966-2-1.
 double srgb_to_linear(double encoded) {
     return encoded <= .04045 ? encoded / 12.92 : std::pow((encoded + .055) / 1.055, 2.4);
 }
-
-}  // namespace
 
 Unorm8Table::Unorm8Table() {
     for (std::size_t code = 0; code < 256; ++code) {

@@ -9,6 +9,9 @@
 
 namespace pbrbake {
 
+/// IEC 61966-2-1, of encoded values in [0, 1]. By the C library's pow: for what is rounded or compared.
+double srgb_to_linear(double encoded);
+
 /// Values of the codes, and where sRGB codes end. Rounded to float, they don't depend on the C library's pow.
 class Unorm8Table {
   public:

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "bakers/unorm8.hpp"
+
 namespace pbrbake::io {
 namespace {
 
@@ -39,10 +41,6 @@ std::optional<Tag> find_tag(Bytes profile, std::string_view signature) {
         if (at + size <= profile.size()) return Tag(profile.subspan(at, size));
     }
     return {};
-}
-
-double srgb_decoded(double code) {
-    return code <= .04045 ? code / 12.92 : std::pow((code + .055) / 1.055, 2.4);
 }
 
 /// A parametricCurveType's value (10.18); NaN of a kind that isn't known.
@@ -81,7 +79,7 @@ bool is_srgb_curve(const Tag& curve) {
     for (int i = 0; i <= kSteps; ++i) {
         const double x = static_cast<double>(i) / kSteps;
         const double y = is_parametric ? parametric(curve, x) : sampled(curve, x);
-        if (!(std::abs(y - srgb_decoded(x)) <= kSame)) return false;
+        if (!(std::abs(y - srgb_to_linear(x)) <= kSame)) return false;
     }
     return true;
 }

@@ -7,7 +7,6 @@
 #include "bakers/texture/pack.hpp"
 
 namespace pbrbake::texture {
-namespace {}  // namespace
 
 Survey survey(const Sources& sources, Context& context) {
     Survey result{find_calibration(sources, context), false, 0, find_doubts(sources)};
@@ -62,8 +61,8 @@ const Rows& Converter::convert(int begin, int own_end, int end, std::vector<Find
         float* metallic = level.metallic.data() + level.at(y);
         if (reach > 0) metal_.regularise(y - begin + kMetalReach, metallic);
         if (reach > 0 && has_residual_)
-            limit_metallic(sources_.visible_error(), static_cast<std::size_t>(y - begin) * level.width,
-                           static_cast<std::size_t>(level.width), level);
+            limit_metallic(sources_.visible_error(), level.at(y), static_cast<std::size_t>(level.width),
+                           level);
         if (y >= own_end) continue;
         Findings& found = findings[static_cast<std::size_t>(y)];
         for (int x = 0; x < level.width; ++x) found.metallic += static_cast<double>(metallic[x]);
